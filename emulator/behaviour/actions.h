@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "emulator/behaviour/notice.h"
+#include "emulator/behaviour/value.h"
+#include "emulator/printer/printer.h"
+
+namespace fauxboard::behaviour {
+
+/// What an action may touch.
+struct ActionContext {
+    printer::Printer& printer;
+    NoticeSink& notices;
+    bool reset = false;  ///< set by board.reset; the board restarts when the rule is done
+};
+
+enum class ArgType : std::uint8_t { number, boolean, text };
+
+struct ArgInfo {
+    std::string_view name;
+    ArgType type;
+    bool required;
+    std::string_view help;
+};
+
+/// Something a profile, a scenario or a person can do to the machine. One row here is the whole declaration:
+/// its arguments are checked when the profile loads, and the reference is printed from it.
+struct ActionInfo {
+    std::string_view name;
+    std::string_view phrase;  ///< how recordings call it ("filament in"), empty if they never do
+    std::string_view help;
+    std::span<const ArgInfo> args;
+    void (*run)(ActionContext&,
+                std::span<const Value>);  ///< null: `set` and `add`, which name fields instead
+};
+
+inline constexpr std::size_t max_action_args = 8;
+
+/// All actions, in the order of the reference.
+std::span<const ActionInfo> actions();
+const ActionInfo* find_action(std::string_view name);
+/// By name or by phrase.
+const ActionInfo* find_world_action(std::string_view phrase);
+
+}  // namespace fauxboard::behaviour

@@ -1,0 +1,158 @@
+// Leveling, card, job, EEPROM, stepper drivers, the board itself.
+
+#include <algorithm>
+#include <array>
+
+#include "emulator/behaviour/action_rows.h"
+#include "emulator/behaviour/eeprom.h"
+
+namespace fauxboard::behaviour::rows {
+namespace {
+
+using enum ArgType;
+
+void leveling_adjust(ActionContext& c, Args a) {
+    c.printer.leveling.manual_z_mm += std::clamp(a[0].number, -100.0, 100.0);
+    printer::MoveRequest request;
+    request.values[2] = a[0].number;
+    request.force_relative = true;
+    request.limits = false;  // the page exists to find out where the bed is
+    c.printer.motion.move(request, c.printer.now(), c.printer.events);
+}
+
+void leveling_enter(ActionContext& c, Args) {
+    c.printer.leveling.manual = true;
+    c.printer.leveling.manual_z_mm = c.printer.config().manual_level_start_mm;
+    if (!c.printer.run("level_start")) {
+        refuse(c, "manual leveling cannot move: no procedure level_start, or the motion queue is full");
+    }
+}
+
+void card_choose(ActionContext& c, Args a) {
+    if (!c.printer.storage.choose(whole(a[0], 0, 1).value_or(-1))) {
+        refuse(c, "no such disk; expected 0 (SD card) or 1 (U-disk)");
+    }
+}
+
+void card_enter(ActionContext& c, Args a) {
+    std::string_view name = a[0].text;
+    if (name.starts_with("file:")) {
+        name.remove_prefix(5);
+    }
+    if (!c.printer.storage.enter(name)) {
+        refuse(c, "no such folder on the card: \"" + std::string(name) + '"');
+    }
+}
+
+void job_start(ActionContext& c, Args) {
+    if (!c.printer.start_or_resume_job()) {
+        c.notices.notice(Level::info, "nothing to start: no file is selected, or a job is under way");
+    }
+}
+
+void eeprom_save(ActionContext& c, Args a) {
+    if (!save_fields(c.printer, a[0].text)) {
+        c.notices.notice(Level::error,
+                         "the EEPROM could not be written; the settings live only until power-off");
+    }
+}
+
+void board_stall(ActionContext& c, Args a) {
+    const double least = std::clamp(a[0].number, 0.0, 60000.0);
+    const double most = std::clamp(number_or(a[1], least), least, 60000.0);
+    c.printer.stall(printer::from_seconds((least + (most - least) * c.printer.random()) / 1000));
+}
+
+void stepper_select(ActionContext& c, Args a) {
+    const auto motor = whole(a[0], 0, 3);
+    if (!motor) {
+        refuse(c, "no such stepper driver; expected 0 to 3");
+        return;
+    }
+    c.printer.steppers.selected = *motor;
+}
+
+constexpr std::array adjust_args{ArgInfo{"mm", number, true, "up is positive"}};
+constexpr std::array disk_args{ArgInfo{"disk", number, true, "0 SD card, 1 U-disk"}};
+constexpr std::array folder_args{
+    ArgInfo{"name", text, true, "folder, as M20 file: names it; an empty one is the root"}};
+constexpr std::array file_args{ArgInfo{"name", text, true, "file, relative to the folder shown"}};
+constexpr std::array seek_args{ArgInfo{"byte", number, true, "position in the file"}};
+constexpr std::array prefix_args{
+    ArgInfo{"fields", text, false, "only fields whose path starts so; all if left out"}};
+constexpr std::array stall_args{ArgInfo{"ms", number, true, "time, ms"},
+                                ArgInfo{"most_ms", number, false, "upper end of a random range"}};
+constexpr std::array motor_args{ArgInfo{"motor", number, true, "0 to 3"}};
+
+constexpr std::array table{
+    ActionInfo{
+        "leveling.enter", "", "opens manual leveling: runs the procedure level_start", {}, leveling_enter},
+    ActionInfo{"leveling.adjust", "", "moves Z and the leveling height", adjust_args, leveling_adjust},
+    ActionInfo{"card.insert",
+               "card in",
+               "the SD card is put in",
+               {},
+               [](ActionContext& c, Args) { c.printer.insert_card(0); }},
+    ActionInfo{"card.remove",
+               "card out",
+               "the SD card is taken out",
+               {},
+               [](ActionContext& c, Args) { c.printer.remove_card(0); }},
+    ActionInfo{"card.choose", "", "chooses SD card or U-disk (M2115)", disk_args, card_choose},
+    ActionInfo{"card.enter", "",
+               "enters a folder; one that is not there, or outside the card, changes nothing", folder_args,
+               card_enter},
+    ActionInfo{"card.root",
+               "",
+               "shows the root folder",
+               {},
+               [](ActionContext& c, Args) { c.printer.storage.enter_root(); }},
+    ActionInfo{"job.select", "", "selects a file; raises file.selected, file.missing or file.unreadable",
+               file_args, [](ActionContext& c, Args a) { c.printer.select_file(a[0].text); }},
+    ActionInfo{"job.start", "", "starts the file selected, or resumes the paused job", {}, job_start},
+    ActionInfo{"job.pause",
+               "",
+               "pauses: parks the head, then raises job.paused; asked again meanwhile raises job.pausing",
+               {},
+               [](ActionContext& c, Args) { c.printer.pause_job(); }},
+    ActionInfo{"job.stop",
+               "",
+               "stops the job; heaters off",
+               {},
+               [](ActionContext& c, Args) { c.printer.stop_job(); }},
+    ActionInfo{"job.finish",
+               "job finished",
+               "the job is at its end",
+               {},
+               [](ActionContext& c, Args) { c.printer.finish_job(); }},
+    ActionInfo{"job.seek", "", "position in the file (M26)", seek_args,
+               [](ActionContext& c, Args a) { c.printer.job.set_byte(a[0].number); }},
+    ActionInfo{"eeprom.save", "", "stores settings (M500)", prefix_args, eeprom_save},
+    ActionInfo{"eeprom.load", "", "takes stored settings back (M501)", prefix_args,
+               [](ActionContext& c, Args a) { load_fields(c.printer, a[0].text); }},
+    ActionInfo{"eeprom.defaults", "", "factory settings (M502); the EEPROM itself stays until the next save",
+               prefix_args,
+               [](ActionContext& c, Args a) { apply_image(c.printer, c.printer.factory_image, a[0].text); }},
+    ActionInfo{"stepper.select", "", "chooses the closed-loop driver that the stepper fields speak of",
+               motor_args, stepper_select},
+    ActionInfo{"machine.stop",
+               "emergency stop",
+               "M112: job, heaters and motors off at once",
+               {},
+               [](ActionContext& c, Args) { c.printer.emergency_stop(); }},
+    ActionInfo{"board.stall", "", "the main loop, and with it the status wheel, stands still for a time",
+               stall_args, board_stall},
+    ActionInfo{"board.reset",
+               "board reset",
+               "restarts the board as its reset button does; what is physical stays",
+               {},
+               [](ActionContext& c, Args) { c.reset = true; }},
+};
+
+}  // namespace
+
+std::span<const ActionInfo> device_actions() {
+    return table;
+}
+
+}  // namespace fauxboard::behaviour::rows

@@ -1,0 +1,251 @@
+// Heaters, motion, mixing, filament, fans.
+
+#include <array>
+#include <cmath>
+
+#include "emulator/behaviour/action_rows.h"
+
+namespace fauxboard::behaviour::rows {
+namespace {
+
+using enum ArgType;
+using printer::Feeder;
+using printer::MoveOutcome;
+
+std::optional<HeaterId> heater(ActionContext& c, const Value& name) {
+    if (name.text == "nozzle") {
+        return HeaterId::nozzle;
+    }
+    if (name.text == "bed") {
+        return HeaterId::bed;
+    }
+    refuse(c, "unknown heater \"" + std::string(name.text) + "\"; expected nozzle or bed");
+    return std::nullopt;
+}
+
+void heater_target(ActionContext& c, Args a) {
+    const auto id = heater(c, a[0]);
+    if (id && c.printer.thermal.set_target(*id, a[1].number)) {
+        refuse(c, "target of the " + std::string(a[0].text) + " beyond what the machine allows; taken as " +
+                      std::to_string(std::lround(c.printer.thermal.target_c(*id))) + " C");
+    }
+}
+
+void heater_wait(ActionContext& c, Args a) {
+    const auto id = heater(c, a[0]);
+    if (id && c.printer.thermal.heating(*id) && !c.printer.thermal.reached(*id)) {
+        c.printer.wait.start(*id, c.printer.now(), c.printer.events);
+    }
+}
+
+void heaters_off(ActionContext& c, Args) {
+    c.printer.thermal.set_target(HeaterId::nozzle, 0);
+    c.printer.thermal.set_target(HeaterId::bed, 0);
+}
+
+void motion_home(ActionContext& c, Args a) {
+    const unsigned mask = (flag(a[0]) ? 1U : 0U) | (flag(a[1]) ? 2U : 0U) | (flag(a[2]) ? 4U : 0U);
+    if (!c.printer.home(mask)) {
+        refuse(c, "homing not started: the motion queue is full, or the profile has no such procedure");
+    }
+}
+
+void motion_run(ActionContext& c, Args a) {
+    if (!c.printer.run(a[0].text)) {
+        refuse(c,
+               "procedure " + std::string(a[0].text) + " not started: unknown, or the motion queue is full");
+    }
+}
+
+void motion_move(ActionContext& c, Args a) {
+    printer::MoveRequest request;
+    for (std::size_t i = 0; i < printer::axis_count; ++i) {
+        request.values[i] = given(a[i]);
+    }
+    request.feed_mm_min = given(a[4]);
+    request.force_relative = flag(a[5]);
+    request.limits = a[6].none() || flag(a[6]);
+    switch (c.printer.motion.move(request, c.printer.now(), c.printer.events)) {
+        case MoveOutcome::accepted:
+            break;
+        case MoveOutcome::clamped:
+            c.notices.notice(Level::info, "move kept inside the build volume");
+            break;
+        case MoveOutcome::queue_full:
+            refuse(c, "move lost: the motion queue is full");
+            break;
+    }
+}
+
+void motion_set_position(ActionContext& c, Args a) {
+    c.printer.motion.set_position({given(a[0]), given(a[1]), given(a[2]), given(a[3])});
+}
+
+void motors_enable(ActionContext& c, Args) {
+    c.printer.motion.set_motors(true);
+}
+void motors_disable(ActionContext& c, Args) {
+    c.printer.motors_off();
+}
+
+void fan_pwm(ActionContext& c, Args a) {
+    const auto fan = whole(a[0], 0, 2);
+    const double pwm = std::fmin(std::fmax(a[1].number, 0), 255);
+    if (!fan || *fan == 1) {
+        refuse(c, "no such fan; expected 0 (part cooling) or 2");
+        return;
+    }
+    (*fan == 0 ? c.printer.fans.part_percent : c.printer.fans.second_percent) =
+        static_cast<int>(std::lround(pwm * 100 / 255));
+}
+
+void ratio_check(ActionContext& c, bool taken) {
+    if (!taken) {
+        refuse(c, "mixing value out of range; the mixer stays as it is");
+    }
+}
+
+void mixer_weights(ActionContext& c, Args a) {
+    ratio_check(c, c.printer.mixer.set_weights(number_or(a[0], 0), number_or(a[1], 0), number_or(a[2], 0)));
+}
+void mixer_packed(ActionContext& c, Args a) {
+    ratio_check(c, c.printer.mixer.set_packed(a[0].number));
+}
+void mixer_share(ActionContext& c, Args a) {
+    ratio_check(c, c.printer.mixer.set_share(whole(a[0], 0, 2).value_or(-1), a[1].number));
+}
+void mixer_tool(ActionContext& c, Args a) {
+    ratio_check(c, c.printer.mixer.select_tool(whole(a[0], 0, 3).value_or(-1)));
+}
+void mixer_mode(ActionContext& c, Args a) {
+    ratio_check(c, c.printer.mixer.set_mode(whole(a[0], 0, 3).value_or(-1)));
+}
+void mixer_template(ActionContext& c, Args a) {
+    ratio_check(c, c.printer.mixer.select_template(whole(a[0], 1, 14).value_or(0)));
+}
+void mixer_range(ActionContext& c, Args a) {
+    printer::Mixer& mixer = c.printer.mixer;
+    ratio_check(c, a[0].none() || mixer.set_start(a[0].number));
+    ratio_check(c, a[1].none() || mixer.set_end(a[1].number));
+    ratio_check(c, a[2].none() || mixer.set_start_height(a[2].number));
+    ratio_check(c, a[3].none() || mixer.set_end_height(a[3].number));
+}
+
+constexpr std::array heater_target_args{ArgInfo{"heater", text, true, "nozzle or bed"},
+                                        ArgInfo{"c", number, true, "target, C; 0 is off"}};
+constexpr std::array heater_args{ArgInfo{"heater", text, true, "nozzle or bed"}};
+constexpr std::array home_args{ArgInfo{"x", boolean, false, "home X"}, ArgInfo{"y", boolean, false, "home Y"},
+                               ArgInfo{"z", boolean, false, "home Z; none of the three means all"}};
+constexpr std::array run_args{
+    ArgInfo{"procedure", text, true, "a name in the profile's machine.motion.procedures"}};
+constexpr std::array move_args{
+    ArgInfo{"x", number, false, "mm"},
+    ArgInfo{"y", number, false, "mm"},
+    ArgInfo{"z", number, false, "mm"},
+    ArgInfo{"e", number, false, "mm"},
+    ArgInfo{"f", number, false, "feed, mm/min; stays in force"},
+    ArgInfo{"relative", boolean, false, "by these distances, whatever G90 and G91 say"},
+    ArgInfo{"limits", boolean, false, "keep inside the build volume (default)"}};
+constexpr std::array position_args{ArgInfo{"x", number, false, "mm"}, ArgInfo{"y", number, false, "mm"},
+                                   ArgInfo{"z", number, false, "mm"}, ArgInfo{"e", number, false, "mm"}};
+constexpr std::array fan_args{ArgInfo{"fan", number, true, "0 part cooling, 2 second fan"},
+                              ArgInfo{"value", number, true, "0 to 255"}};
+constexpr std::array weights_args{ArgInfo{"a", number, false, "weight of extruder 1"},
+                                  ArgInfo{"b", number, false, "weight of extruder 2"},
+                                  ArgInfo{"c", number, false, "weight of extruder 3"}};
+constexpr std::array packed_args{
+    ArgInfo{"ratio", number, true, "A + 256 B + 65536 C, percents that add up to 100"}};
+constexpr std::array share_args{ArgInfo{"channel", number, true, "0 to 2"},
+                                ArgInfo{"percent", number, true, "0 to 100"}};
+constexpr std::array tool_args{ArgInfo{"tool", number, true, "0 to 3"}};
+constexpr std::array mode_args{ArgInfo{"mode", number, true, "0 off, 1 fixed ratio, 2 and 3 template"}};
+constexpr std::array template_args{ArgInfo{"template", number, true, "1 to 8 fixed, 9 to 14 custom"}};
+constexpr std::array range_args{ArgInfo{"start", number, false, "packed ratio at the start"},
+                                ArgInfo{"end", number, false, "packed ratio at the end"},
+                                ArgInfo{"start_height", number, false, "mm"},
+                                ArgInfo{"end_height", number, false, "mm"}};
+
+constexpr std::array table{
+    ActionInfo{"heater.target", "", "sets a target; beyond the machine's limits it is clamped and said",
+               heater_target_args, heater_target},
+    ActionInfo{"heater.wait", "", "stops the status wheel until the heater is there (M109, M190)",
+               heater_args, heater_wait},
+    ActionInfo{"heater.stop_waiting",
+               "",
+               "breaks a wait off (M108)",
+               {},
+               [](ActionContext& c, Args) { c.printer.wait.cancel(c.printer.events); }},
+    ActionInfo{"heater.all_off", "", "both targets to 0", {}, heaters_off},
+    ActionInfo{"heaters.reported",
+               "",
+               "the temperatures were told: heaters.moved starts anew from these",
+               {},
+               [](ActionContext& c, Args) { c.printer.thermal.mark_reported(); }},
+    ActionInfo{"motion.home", "", "homes the axes named; takes the time of the moves", home_args,
+               motion_home},
+    ActionInfo{"motion.run", "", "runs a motion procedure of the profile", run_args, motion_run},
+    ActionInfo{"motion.move", "", "a G0/G1 move", move_args, motion_move},
+    ActionInfo{"motion.set_position", "", "calls the present place so (G92)", position_args,
+               motion_set_position},
+    ActionInfo{"motion.abort",
+               "",
+               "drops the moves that wait and stops the one under way",
+               {},
+               [](ActionContext& c, Args) { c.printer.motion.abort(); }},
+    ActionInfo{"motors.enable", "", "motors on", {}, motors_enable},
+    ActionInfo{"motors.disable", "motors off", "motors off; the homing is forgotten", {}, motors_disable},
+    ActionInfo{"fan.pwm", "", "sets a fan, kept within 0 to 255, shown as percent", fan_args, fan_pwm},
+    ActionInfo{"mixer.weights", "", "mixing weights of any scale, normalised to percents (M165)",
+               weights_args, mixer_weights},
+    ActionInfo{"mixer.packed", "", "mixing ratio as the line packs it", packed_args, mixer_packed},
+    ActionInfo{"mixer.share", "", "share of one channel; the others keep their proportion", share_args,
+               mixer_share},
+    ActionInfo{"mixer.tool", "", "tool with its ratio (T0 to T3)", tool_args, mixer_tool},
+    ActionInfo{"mixer.mode", "", "mixing mode (M2138)", mode_args, mixer_mode},
+    ActionInfo{"mixer.template", "", "mixing template (M2136)", template_args, mixer_template},
+    ActionInfo{"mixer.range", "", "ratios and heights between which a template mixes (M2137)", range_args,
+               mixer_range},
+    ActionInfo{"filament.load",
+               "",
+               "feeds filament until stopped",
+               {},
+               [](ActionContext& c, Args) { c.printer.feed(Feeder::Mode::load); }},
+    ActionInfo{"filament.unload",
+               "",
+               "pulls filament until stopped",
+               {},
+               [](ActionContext& c, Args) { c.printer.feed(Feeder::Mode::unload); }},
+    ActionInfo{"filament.clean",
+               "",
+               "cycles the extruders until stopped",
+               {},
+               [](ActionContext& c, Args) { c.printer.feed(Feeder::Mode::clean); }},
+    ActionInfo{"filament.once",
+               "",
+               "feeds or retracts 10 mm",
+               {},
+               [](ActionContext& c, Args) { c.printer.feed_once(); }},
+    ActionInfo{"filament.stop",
+               "",
+               "stops loading, unloading or cleaning after the piece under way",
+               {},
+               [](ActionContext& c, Args) { c.printer.feeder.stop(c.printer.now(), c.printer.events); }},
+    ActionInfo{"filament.insert",
+               "filament in",
+               "filament is put into the detector",
+               {},
+               [](ActionContext& c, Args) { c.printer.set_filament(true); }},
+    ActionInfo{"filament.remove",
+               "filament out",
+               "filament is taken out of the detector",
+               {},
+               [](ActionContext& c, Args) { c.printer.set_filament(false); }},
+};
+
+}  // namespace
+
+std::span<const ActionInfo> machine_actions() {
+    return table;
+}
+
+}  // namespace fauxboard::behaviour::rows

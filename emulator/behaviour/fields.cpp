@@ -1,0 +1,87 @@
+#include "emulator/behaviour/fields.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "emulator/behaviour/field_rows.h"
+#include "emulator/behaviour/nearest.h"
+
+namespace fauxboard::behaviour {
+namespace {
+
+const std::vector<Field>& all() {
+    static const std::vector<Field> table = [] {
+        std::vector<Field> rows;
+        for (const auto part : {rows::machine_fields(), rows::settings_fields(), rows::device_fields()}) {
+            rows.insert(rows.end(), part.begin(), part.end());
+        }
+        return rows;
+    }();
+    return table;
+}
+
+}  // namespace
+
+std::string_view type_name(FieldType type) {
+    switch (type) {
+        case FieldType::number:
+            return "number";
+        case FieldType::integer:
+            return "integer";
+        case FieldType::boolean:
+            return "boolean";
+        case FieldType::text:
+            return "text";
+    }
+    return "";
+}
+
+std::span<const Field> fields() {
+    return all();
+}
+
+const Field* find_field(std::string_view path) {
+    static const std::unordered_map<std::string_view, const Field*> index = [] {
+        std::unordered_map<std::string_view, const Field*> map;
+        for (const Field& field : all()) {
+            map.emplace(field.path, &field);
+        }
+        return map;
+    }();
+    const auto hit = index.find(path);
+    return hit == index.end() ? nullptr : hit->second;
+}
+
+std::string_view nearest_field(std::string_view path) {
+    std::vector<std::string_view> names;
+    for (const Field& field : all()) {
+        names.push_back(field.path);
+    }
+    return nearest(path, names);
+}
+
+SetResult set_field(printer::Printer& printer, const Field& field, Value value) {
+    if (field.set == nullptr) {
+        return SetResult::refused;
+    }
+    if (field.type == FieldType::text) {
+        if (!value.is_text()) {
+            return SetResult::refused;
+        }
+        const auto room = static_cast<std::size_t>(field.max);
+        const bool cut = value.text.size() > room;
+        field.set(printer, Value::of(value.text.substr(0, room)));
+        return cut ? SetResult::clamped : SetResult::done;
+    }
+    if (!value.is_number() || !std::isfinite(value.number)) {
+        return SetResult::refused;
+    }
+    const double inside = std::clamp(value.number, field.min, field.max);
+    field.set(printer, Value::of(inside));
+    return inside == value.number ? SetResult::done : SetResult::clamped;
+}
+
+}  // namespace fauxboard::behaviour

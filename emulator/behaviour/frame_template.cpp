@@ -1,0 +1,146 @@
+#include "emulator/behaviour/frame_template.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "emulator/behaviour/number_text.h"
+
+namespace fauxboard::behaviour {
+namespace {
+
+/// Copies a text, making control characters visible instead of active.
+std::size_t copy_text(std::string_view text, std::span<char> out, bool lower) {
+    const std::size_t size = std::min(text.size(), out.size());
+    for (std::size_t i = 0; i < size; ++i) {
+        char c = text[i];
+        if (static_cast<unsigned char>(c) < 0x20) {
+            c = '?';
+        } else if (lower && c >= 'A' && c <= 'Z') {
+            c = static_cast<char>(c - 'A' + 'a');
+        }
+        out[i] = c;
+    }
+    return size;
+}
+
+bool needs_format(const Operand& operand) {
+    return operand.kind == Operand::Kind::variable || operand.kind == Operand::Kind::parameter ||
+           (operand.kind == Operand::Kind::field && operand.field->type == FieldType::number);
+}
+
+}  // namespace
+
+FrameTemplate::FrameTemplate(std::string_view source, const Names& names) {
+    std::size_t at = 0;
+    while (at < source.size()) {
+        const std::size_t brace = source.find_first_of("{}", at);
+        add_literal(source.substr(at, brace - at));
+        if (brace == std::string_view::npos) {
+            break;
+        }
+        if (brace + 1 < source.size() && source[brace + 1] == source[brace]) {
+            add_literal(source.substr(brace, 1));
+            at = brace + 2;
+            continue;
+        }
+        const std::size_t close = source.find('}', brace);
+        if (source[brace] == '}' || close == std::string_view::npos) {
+            throw ExpressionError("a brace without its partner in \"" + std::string(source) +
+                                      "\"; write {{ or }} for a brace itself",
+                                  {});
+        }
+        add_value(source.substr(brace + 1, close - brace - 1), names);
+        at = close + 1;
+    }
+}
+
+void FrameTemplate::add_literal(std::string_view text) {
+    if (text.empty()) {
+        return;
+    }
+    const bool control =
+        std::any_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; });
+    if (control) {
+        throw ExpressionError("a control character in a frame; line ends are added by the framing", {});
+    }
+    if (!parts_.empty() && parts_.back().style == Style::literal) {
+        parts_.back().size += text.size();
+    } else {
+        Part part;
+        part.from = literals_.size();
+        part.size = text.size();
+        parts_.push_back(std::move(part));
+    }
+    literals_ += text;
+}
+
+void FrameTemplate::add_value(std::string_view inside, const Names& names) {
+    Part part;
+    std::string_view reference = inside;
+    std::string_view format;
+    const std::size_t colon = inside.rfind(':');
+    if (colon != std::string_view::npos && colon + 1 != inside.size()) {
+        reference = inside.substr(0, colon);
+        format = inside.substr(colon + 1);
+    }
+    part.operand = parse_reference(reference, names);
+    if (format.size() == 3 && format[0] == '.' && format[2] == 'f' && format[1] >= '0' && format[1] <= '6') {
+        part.style = Style::fixed;
+        part.decimals = format[1] - '0';
+    } else if (format == "d") {
+        part.style = Style::whole;
+    } else if (format == "s" || format == "lower") {
+        part.style = format == "s" ? Style::text : Style::lower;
+    } else if (format.empty()) {
+        if (needs_format(part.operand)) {
+            throw ExpressionError("{" + std::string(inside) + "} is a number and needs a format, such as {" +
+                                      std::string(inside) + ":.2f}",
+                                  {});
+        }
+        part.style = part.operand.is_text() ? Style::text : Style::whole;
+    } else {
+        throw ExpressionError("unknown format \"" + std::string(format) + "\" in {" + std::string(inside) +
+                                  "}; expected .0f to .6f, d, s or lower",
+                              {});
+    }
+    const bool text_style = part.style == Style::text || part.style == Style::lower;
+    if (text_style != part.operand.is_text()) {
+        throw ExpressionError("{" + std::string(inside) + "} is " + (text_style ? "a number" : "a text") +
+                                  " and cannot be written with the format \"" + std::string(format) + "\"",
+                              {});
+    }
+    parts_.push_back(std::move(part));
+}
+
+std::size_t FrameTemplate::render(const Scope& scope, std::span<char> out, bool& cut) const {
+    std::size_t size = 0;
+    for (const Part& part : parts_) {
+        const std::span<char> room = out.subspan(size);
+        if (part.style == Style::literal) {
+            const std::size_t n = std::min(part.size, room.size());
+            std::memcpy(room.data(), literals_.data() + part.from, n);
+            cut = cut || n < part.size;
+            size += n;
+            continue;
+        }
+        const Value value = part.operand.evaluate(scope);
+        if (value.none()) {
+            continue;
+        }
+        if (value.is_text()) {
+            const std::size_t n = copy_text(value.text, room, part.style == Style::lower);
+            cut = cut || n < value.text.size();
+            size += n;
+            continue;
+        }
+        const bool whole = part.style == Style::whole;
+        const double cut_off = value.number < 0 ? -static_cast<double>(static_cast<long long>(-value.number))
+                                                : static_cast<double>(static_cast<long long>(value.number));
+        const std::size_t n = write_fixed(room, whole ? cut_off + 0.0 : value.number, part.decimals);
+        cut = cut || n == 0;
+        size += n;
+    }
+    return size;
+}
+
+}  // namespace fauxboard::behaviour

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "emulator/behaviour/operand.h"
+
+namespace fauxboard::behaviour {
+
+/// A line with places for values, compiled when the profile loads: "L1 X{position.x:.3f} F{motion.feed:d}".
+///
+/// Between braces stands a reference (see parse_reference) and, after a colon, a format: `.1f` decimals, `d`
+/// a whole number (cut off, as the firmware's casts do), `s` text, `lower` text in small letters. `{{` and
+/// `}}` are braces. A number with decimals must name its format; whole numbers, booleans and texts need none.
+class FrameTemplate {
+  public:
+    FrameTemplate() = default;
+    /// Throws ExpressionError.
+    FrameTemplate(std::string_view source, const Names& names);
+
+    /// Writes the line into `out` and returns its length; what does not fit is cut and `cut` set. A control
+    /// character out of a text (a file name) becomes '?', so that nothing can break the line.
+    std::size_t render(const Scope& scope, std::span<char> out, bool& cut) const;
+
+  private:
+    enum class Style : std::uint8_t { literal, fixed, whole, text, lower };
+    struct Part {
+        Style style = Style::literal;
+        int decimals = 0;
+        std::size_t from = 0;  ///< literal: place in literals_
+        std::size_t size = 0;
+        Operand operand;
+    };
+
+    void add_literal(std::string_view text);
+    void add_value(std::string_view inside, const Names& names);
+
+    std::string literals_;
+    std::vector<Part> parts_;
+};
+
+}  // namespace fauxboard::behaviour

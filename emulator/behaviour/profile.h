@@ -1,0 +1,107 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "emulator/behaviour/document.h"
+#include "emulator/behaviour/frame_template.h"
+#include "emulator/behaviour/rules.h"
+#include "emulator/printer/machine_config.h"
+#include "protocol/framing.h"
+
+namespace fauxboard::behaviour {
+
+using printer::SimTime;
+
+/// How the line to the screen is spoken.
+struct LineConfig {
+    unsigned baud = 115200;
+    protocol::ChecksumPolicy checksum = protocol::ChecksumPolicy::required;
+    unsigned queue_lines = 64;  ///< requests waiting for their tick; more are lost, as in the board's buffer
+};
+
+/// One message the board can send: one line, or several that leave together.
+struct Frame {
+    struct Line {
+        FrameTemplate text;
+        bool for_each_entry = false;  ///< once per entry of the card's listing
+    };
+    std::string name;
+    protocol::FrameStyle style = protocol::FrameStyle::framed;
+    std::vector<Line> lines;
+    std::vector<ActionCall> then;  ///< done when it is queued
+    std::vector<const Field*>
+        watched;  ///< fields some slot compares with their values when this was last sent
+};
+
+/// One slot of the status wheel.
+struct Slot {
+    std::optional<std::size_t> frame;  ///< nothing: an empty slot
+    std::vector<Condition> when;
+    std::vector<std::size_t> when_changed;  ///< indices into Frame::watched: send only if one differs
+    std::vector<std::size_t>
+        or_changed;  ///< indices into Frame::watched: send also in a silent round if one differs
+    unsigned every_rounds = 1;
+    unsigned first_round = 0;
+    std::optional<std::size_t> only_with;  ///< only in rounds in which this frame went out
+    bool always = false;                   ///< due by time alone: nothing but the round count decides
+};
+
+struct Schedule {
+    SimTime slot{300'000};
+    SimTime first{0};  ///< of slot 0, from power-on
+    std::vector<Slot> slots;
+    std::vector<Condition> frozen_while;
+};
+
+/// A profile, checked and compiled: everything a board of this kind says and does. Immutable, shared by all
+/// its boards.
+class Profile {
+  public:
+    std::string name;
+    std::string title;
+    std::vector<std::string> files;  ///< what it was read from, base first
+    LineConfig line;
+    SimTime tick{50'000};
+    std::vector<Frame> frames;
+    std::vector<Send> boot;
+    Schedule schedule;
+    std::vector<VariableInfo> variables;
+    std::vector<ActionCall> defaults;  ///< put into the machine at every power-on, before the EEPROM
+    std::shared_ptr<const printer::MachineConfig> machine;
+    std::array<std::vector<Rule>, printer::event_count> events;
+
+    /// Rules for a request of the screen, or of the USB host; null when there are none.
+    const std::vector<Rule>* screen_rules(const protocol::Command& command) const {
+        return find(screen_, command);
+    }
+    const std::vector<Rule>* host_rules(const protocol::Command& command) const {
+        return find(host_, command);
+    }
+
+    struct RequestTable {
+        std::unordered_map<std::uint32_t, std::vector<Rule>> codes;  ///< by code_key
+        std::map<std::string, std::vector<Rule>, std::less<>> words;
+    };
+    RequestTable screen_;
+    RequestTable host_;
+
+    static std::uint32_t code_key(char letter, std::uint32_t number) {
+        return static_cast<std::uint32_t>(static_cast<unsigned char>(letter)) << 16U | (number & 0xFFFFU);
+    }
+
+  private:
+    static const std::vector<Rule>* find(const RequestTable& table, const protocol::Command& command);
+};
+
+/// Checks and compiles. Throws ProfileError with everything that is wrong.
+std::shared_ptr<const Profile> load_profile(const SourceText& source, const SourceFinder& find);
+
+}  // namespace fauxboard::behaviour

@@ -1,0 +1,371 @@
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "emulator/behaviour/machine_loader.h"
+#include "emulator/behaviour/nearest.h"
+#include "emulator/behaviour/profile.h"
+#include "emulator/behaviour/reader.h"
+#include "emulator/behaviour/rule_compiler.h"
+#include "emulator/behaviour/wire_text.h"
+#include "protocol/command.h"
+
+namespace fauxboard::behaviour {
+namespace {
+
+using FrameIndex = std::map<std::string, std::size_t, std::less<>>;
+
+/// Compiles a whole document into a Profile. The order of the steps is the order of need: names before what
+/// uses them.
+class Loader {
+  public:
+    explicit Loader(const Document& document) : document_(document), findings_{document, {}} {}
+
+    std::shared_ptr<const Profile> load();
+
+  private:
+    void load_head(ObjectReader& root);
+    void load_line(const Json& node, const std::string& pointer);
+    void load_variables(const Json& node, const std::string& pointer);
+    void name_frames(const Json& node, const std::string& pointer);
+    void load_frame(const Json& node, const std::string& pointer, Frame& frame);
+    void load_frame_lines(const Json& node, const std::string& pointer, Frame& frame);
+    FrameTemplate compile(const Json& node, const std::string& pointer, bool loop);
+    void load_schedule(const Json& node, const std::string& pointer);
+    void load_slot(const Json& node, const std::string& pointer);
+    std::vector<std::size_t> watch(const Json& node, const std::string& pointer, std::size_t frame);
+    void load_requests(const Json& node, const std::string& pointer, Profile::RequestTable& table);
+    void load_events(const Json& node, const std::string& pointer);
+    void load_defaults(const Json& node, const std::string& pointer);
+
+    const Document& document_;
+    Findings findings_;
+    Names names_;
+    Names request_names_;
+    FrameIndex frame_index_;
+    std::shared_ptr<Profile> profile_ = std::make_shared<Profile>();
+    std::shared_ptr<printer::MachineConfig> machine_ = std::make_shared<printer::MachineConfig>();
+};
+
+void Loader::load_head(ObjectReader& root) {
+    root.required("name");
+    root.text("name", profile_->name, 64);
+    root.text("title", profile_->title, 256);
+    root.get("extends");  // resolved before
+    constexpr std::array<std::string_view, 1> protocols{"smartto"};
+    std::size_t protocol = 0;
+    root.required("protocol");
+    root.choice("protocol", protocols, protocol);
+    if (const Json* line = root.get("line")) {
+        load_line(*line, root.pointer("line"));
+    }
+    if (const Json* transmit = root.get("transmit")) {
+        ObjectReader reader(*transmit, root.pointer("transmit"), findings_);
+        double ms = static_cast<double>(profile_->tick.count()) / 1000;
+        reader.number("tick_ms", ms, 0.1, 10000);
+        reader.finish();
+        profile_->tick = printer::from_seconds(ms / 1000);
+    }
+}
+
+void Loader::load_line(const Json& node, const std::string& pointer) {
+    ObjectReader reader(node, pointer, findings_);
+    reader.unsigned_integer("baud", profile_->line.baud, 300, 4'000'000);
+    reader.unsigned_integer("queue_lines", profile_->line.queue_lines, 1, 1024);
+    constexpr std::array<std::string_view, 3> policies{"required", "if_present", "ignored"};
+    auto policy = static_cast<std::size_t>(profile_->line.checksum);
+    reader.choice("checksum", policies, policy);
+    profile_->line.checksum = static_cast<protocol::ChecksumPolicy>(policy);
+    reader.finish();
+}
+
+void Loader::load_variables(const Json& node, const std::string& pointer) {
+    ObjectReader all(node, pointer, findings_);
+    if (!node.is_object()) {
+        return;
+    }
+    for (const auto& [name, value] : node.items()) {
+        if (name == "comment") {
+            continue;
+        }
+        VariableInfo info;
+        info.name = name;
+        info.max = 1;
+        ObjectReader reader(value, all.pointer(name), findings_);
+        reader.number("min", info.min, -1e12, 1e12);
+        reader.number("max", info.max, -1e12, 1e12);
+        reader.number("value", info.initial, std::min(info.min, info.max), std::max(info.min, info.max));
+        reader.text("help", info.help);
+        reader.finish();
+        if (info.min > info.max) {
+            findings_.add(all.pointer(name), "min is above max");
+            std::swap(info.min, info.max);
+        }
+        names_.variables.emplace(name, profile_->variables.size());
+        profile_->variables.push_back(std::move(info));
+    }
+}
+
+void Loader::name_frames(const Json& node, const std::string& pointer) {
+    if (!node.is_object()) {
+        findings_.add(pointer, found(node) + "; expected an object of frames");
+        return;
+    }
+    for (const auto& [name, value] : node.items()) {
+        if (name == "comment") {
+            continue;
+        }
+        frame_index_.emplace(name, profile_->frames.size());
+        profile_->frames.emplace_back().name = name;
+    }
+}
+
+FrameTemplate Loader::compile(const Json& node, const std::string& pointer, bool loop) {
+    if (!node.is_string()) {
+        findings_.add(pointer, found(node) + "; expected a text, the line with {places} for its values");
+        return {};
+    }
+    Names names = request_names_;
+    names.loop = loop;
+    const auto bytes = to_wire(node.get_ref<const std::string&>());
+    if (!bytes) {
+        findings_.add(pointer, "a character that is not one byte on the wire (beyond U+00FF)");
+        return {};
+    }
+    try {
+        return FrameTemplate(*bytes, names);
+    } catch (const ExpressionError& error) {
+        findings_.add(pointer, error.what(), error.nearest);
+        return {};
+    }
+}
+
+void Loader::load_frame_lines(const Json& node, const std::string& pointer, Frame& frame) {
+    if (!node.is_array() || node.empty() || node.size() > 64) {
+        findings_.add(pointer, found(node) + "; expected a list of 1 to 64 lines");
+        return;
+    }
+    for (std::size_t i = 0; i < node.size(); ++i) {
+        const std::string at = pointer + "/" + std::to_string(i);
+        Frame::Line line;
+        if (node[i].is_object()) {
+            ObjectReader reader(node[i], at, findings_);
+            constexpr std::array<std::string_view, 1> lists{"card.entries"};
+            std::size_t which = 0;
+            reader.required("for_each");
+            reader.choice("for_each", lists, which);
+            reader.required("line");
+            if (const Json* text = reader.get("line")) {
+                line.text = compile(*text, reader.pointer("line"), true);
+            }
+            line.for_each_entry = true;
+            reader.finish();
+        } else {
+            line.text = compile(node[i], at, false);
+        }
+        frame.lines.push_back(std::move(line));
+    }
+}
+
+void Loader::load_frame(const Json& node, const std::string& pointer, Frame& frame) {
+    if (!node.is_object()) {
+        frame.lines.push_back({compile(node, pointer, false), false});
+        return;
+    }
+    ObjectReader reader(node, pointer, findings_);
+    constexpr std::array<std::string_view, 4> styles{"framed", "bare", "star_only", "unfinished"};
+    std::size_t style = 0;
+    reader.choice("style", styles, style);
+    frame.style = static_cast<protocol::FrameStyle>(style);
+    const Json* text = reader.get("line");
+    const Json* lines = reader.get("lines");
+    if ((text == nullptr) == (lines == nullptr)) {
+        findings_.add(pointer, "expected either \"line\" or \"lines\"");
+    } else if (text != nullptr) {
+        frame.lines.push_back({compile(*text, reader.pointer("line"), false), false});
+    } else {
+        load_frame_lines(*lines, reader.pointer("lines"), frame);
+    }
+    if (const Json* then = reader.get("then")) {
+        RuleCompiler compiler(findings_, names_, frame_index_, *machine_);
+        frame.then = compiler.actions(*then, reader.pointer("then"));
+    }
+    reader.finish();
+}
+
+std::vector<std::size_t> Loader::watch(const Json& node, const std::string& pointer, std::size_t frame) {
+    std::vector<std::size_t> out;
+    if (!node.is_array()) {
+        findings_.add(pointer, found(node) + "; expected a list of fields");
+        return out;
+    }
+    std::vector<const Field*>& watched = profile_->frames[frame].watched;
+    for (std::size_t i = 0; i < node.size(); ++i) {
+        const std::string path = node[i].is_string() ? node[i].get<std::string>() : std::string{};
+        const Field* field = find_field(path);
+        if (field == nullptr || field->type == FieldType::text) {
+            findings_.add(pointer + "/" + std::to_string(i),
+                          found(node[i]) + "; expected the path of a numeric field",
+                          std::string(nearest_field(path)));
+            continue;
+        }
+        const auto known = std::find(watched.begin(), watched.end(), field);
+        out.push_back(static_cast<std::size_t>(known - watched.begin()));
+        if (known == watched.end()) {
+            watched.push_back(field);
+        }
+    }
+    return out;
+}
+
+void Loader::load_slot(const Json& node, const std::string& pointer) {
+    Slot slot;
+    if (node.is_null()) {
+        profile_->schedule.slots.push_back(std::move(slot));
+        return;
+    }
+    RuleCompiler compiler(findings_, names_, frame_index_, *machine_);
+    ObjectReader reader(node, pointer, findings_);
+    reader.required("send");
+    if (const Json* send = reader.get("send")) {
+        slot.frame = compiler.frame(*send, reader.pointer("send"));
+    }
+    reader.unsigned_integer("every_rounds", slot.every_rounds, 1, 1000);
+    reader.unsigned_integer("first_round", slot.first_round, 0, 1000);
+    const Json* when = reader.get("when");
+    const Json* changed = reader.get("when_changed");
+    if (when != nullptr) {
+        slot.when = compiler.conditions(*when, reader.pointer("when"));
+    }
+    if (slot.frame) {
+        if (changed != nullptr) {
+            slot.when_changed = watch(*changed, reader.pointer("when_changed"), *slot.frame);
+        }
+        if (const Json* also = reader.get("or_changed")) {
+            slot.or_changed = watch(*also, reader.pointer("or_changed"), *slot.frame);
+        }
+    }
+    if (const Json* with = reader.get("only_with")) {
+        slot.only_with = compiler.frame(*with, reader.pointer("only_with"));
+    }
+    slot.always = when == nullptr && changed == nullptr && !slot.only_with;
+    reader.finish();
+    profile_->schedule.slots.push_back(std::move(slot));
+}
+
+void Loader::load_schedule(const Json& node, const std::string& pointer) {
+    Schedule& schedule = profile_->schedule;
+    ObjectReader reader(node, pointer, findings_);
+    double slot_ms = 300;
+    double first_ms = 0;
+    reader.number("slot_ms", slot_ms, 1, 600'000);
+    reader.number("first_slot_ms", first_ms, 0, 600'000);
+    schedule.slot = printer::from_seconds(slot_ms / 1000);
+    schedule.first = printer::from_seconds(first_ms / 1000);
+    if (const Json* frozen = reader.get("frozen_while")) {
+        RuleCompiler compiler(findings_, names_, frame_index_, *machine_);
+        schedule.frozen_while = compiler.conditions(*frozen, reader.pointer("frozen_while"));
+    }
+    if (const Json* slots = reader.get("slots")) {
+        if (!slots->is_array() || slots->size() > 256) {
+            findings_.add(reader.pointer("slots"), found(*slots) + "; expected a list of at most 256 slots");
+        } else {
+            for (std::size_t i = 0; i < slots->size(); ++i) {
+                load_slot((*slots)[i], reader.pointer("slots") + "/" + std::to_string(i));
+            }
+        }
+    }
+    reader.finish();
+}
+
+void Loader::load_requests(const Json& node, const std::string& pointer, Profile::RequestTable& table) {
+    RuleCompiler compiler(findings_, request_names_, frame_index_, *machine_);
+    ObjectReader reader(node, pointer, findings_);
+    if (!node.is_object()) {
+        return;
+    }
+    for (const auto& [key, value] : node.items()) {
+        if (key == "comment") {
+            continue;
+        }
+        const std::string at = reader.pointer(key);
+        const auto command = protocol::parse_command(key);
+        if (!command || command->word.size() != key.size()) {
+            findings_.add(at, "\"" + key + "\" is no code (M290) and no single word (log)");
+            continue;
+        }
+        std::vector<Rule> rules = compiler.rules(value, at);
+        if (command->letter != 0) {
+            table.codes[Profile::code_key(command->letter, command->number)] = std::move(rules);
+        } else {
+            table.words[key] = std::move(rules);
+        }
+    }
+}
+
+void Loader::load_events(const Json& node, const std::string& pointer) {
+    RuleCompiler compiler(findings_, names_, frame_index_, *machine_);
+    ObjectReader reader(node, pointer, findings_);
+    for (const printer::EventInfo& event : printer::events()) {
+        if (const Json* rules = reader.get(event.name)) {
+            profile_->events[static_cast<std::size_t>(event.id)] =
+                compiler.rules(*rules, reader.pointer(event.name));
+        }
+    }
+    reader.finish();
+}
+
+void Loader::load_defaults(const Json& node, const std::string& pointer) {
+    RuleCompiler compiler(findings_, names_, frame_index_, *machine_);
+    compiler.assignments(node, pointer, false, profile_->defaults);
+}
+
+std::shared_ptr<const Profile> Loader::load() {
+    ObjectReader root(document_.root, "", findings_);
+    profile_->files = document_.files;
+    load_head(root);
+    const auto section = [&](std::string_view key, auto&& load) {
+        if (const Json* node = root.get(key)) {
+            load(*node, root.pointer(key));
+        }
+    };
+    section("identity",
+            [&](const Json& n, const std::string& p) { load_identity(n, p, findings_, machine_->identity); });
+    section("machine",
+            [&](const Json& n, const std::string& p) { load_machine(n, p, findings_, *machine_); });
+    section("variables", [&](const Json& n, const std::string& p) { load_variables(n, p); });
+    request_names_ = names_;
+    request_names_.request = true;
+    root.required("frames");
+    section("frames", [&](const Json& n, const std::string& p) { name_frames(n, p); });
+    section("frames", [&](const Json& n, const std::string& p) {
+        ObjectReader frames(n, p, findings_);
+        for (Frame& frame : profile_->frames) {
+            load_frame(n[frame.name], frames.pointer(frame.name), frame);
+        }
+    });
+    section("defaults", [&](const Json& n, const std::string& p) { load_defaults(n, p); });
+    section("boot", [&](const Json& n, const std::string& p) {
+        profile_->boot = RuleCompiler(findings_, names_, frame_index_, *machine_).sends(n, p);
+    });
+    section("schedule", [&](const Json& n, const std::string& p) { load_schedule(n, p); });
+    section("requests", [&](const Json& n, const std::string& p) { load_requests(n, p, profile_->screen_); });
+    section("host_requests",
+            [&](const Json& n, const std::string& p) { load_requests(n, p, profile_->host_); });
+    section("events", [&](const Json& n, const std::string& p) { load_events(n, p); });
+    root.finish();
+    if (!findings_.problems.empty()) {
+        throw ProfileError(std::move(findings_.problems));
+    }
+    profile_->machine = machine_;
+    return profile_;
+}
+
+}  // namespace
+
+std::shared_ptr<const Profile> load_profile(const SourceText& source, const SourceFinder& find) {
+    const Document document = load_document(source, find);
+    return Loader(document).load();
+}
+
+}  // namespace fauxboard::behaviour

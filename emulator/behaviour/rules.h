@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "emulator/behaviour/actions.h"
+#include "emulator/behaviour/operand.h"
+
+namespace fauxboard::behaviour {
+
+/// One test of a `when`. All tests of a rule must hold.
+struct Condition {
+    enum class Test : std::uint8_t { equal, not_equal, range, one_of, present, absent, starts_with };
+    Operand left;
+    Test test = Test::equal;
+    std::vector<Operand> right;  ///< literals; range: lower and upper bound, either may be `none`
+
+    bool holds(const Scope& scope) const;
+};
+
+bool all_hold(const std::vector<Condition>& conditions, const Scope& scope);
+
+/// One entry of a `do`.
+struct ActionCall {
+    const ActionInfo* info = nullptr;
+    std::vector<Operand> args;  ///< one per info->args, `none` when left out
+    // `set` and `add` only: where to.
+    const Field* field = nullptr;
+    std::optional<std::size_t> variable;
+    bool add = false;
+};
+
+/// Bounds of one of the profile's own variables.
+struct VariableInfo {
+    std::string name;
+    std::string help;
+    double initial = 0;
+    double min = 0;
+    double max = 0;
+};
+
+/// Carries out one call. A parameter that an argument needs and the line lacks skips the call, as the real
+/// board leaves alone what it was not told.
+void run_action(const ActionCall& call, const Scope& scope, const std::vector<VariableInfo>& variables,
+                ActionContext& context);
+
+/// One entry of a `send`: a frame, perhaps only sometimes, perhaps several times.
+struct Send {
+    std::size_t frame = 0;
+    unsigned times = 1;
+    bool now = false;  ///< written at once instead of on the transmit tick
+    std::vector<Condition> when;
+};
+
+/// trigger -> condition -> actions -> frames. The first rule of a list whose conditions hold is carried out.
+struct Rule {
+    std::vector<Condition> when;
+    std::vector<ActionCall> actions;
+    std::vector<Send> send;
+};
+
+}  // namespace fauxboard::behaviour

@@ -1,0 +1,369 @@
+#include "emulator/board/board.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "emulator/behaviour/eeprom.h"
+#include "protocol/command.h"
+
+namespace fauxboard::board {
+namespace {
+
+using behaviour::ActionContext;
+using behaviour::Frame;
+using behaviour::Rule;
+using behaviour::Scope;
+using behaviour::Send;
+using printer::never;
+
+constexpr std::size_t outbox_bytes = 12 * 1024;
+constexpr std::size_t outbox_messages = 128;
+constexpr std::size_t inbox_bytes = 8 * 1024;
+/// Longest message: a card listing. Its last lines must always fit, entries before them may be left out.
+constexpr std::size_t scratch_bytes = 8 * 1024;
+constexpr std::size_t closing_room = 256;
+/// Without pacing, output is made as input comes; beyond this much untaken, requests wait.
+constexpr std::size_t output_limit = 16 * 1024;
+constexpr std::size_t told_limit = 256;
+/// Events that one step may work off: a profile whose events raise each other must come to an end.
+constexpr int event_limit = 256;
+
+}  // namespace
+
+Board::Board(std::shared_ptr<const behaviour::Profile> profile, printer::Services services, Options options)
+    : profile_(std::move(profile)),
+      options_(options),
+      machine_(profile_->machine, services, options.seed),
+      wheel_(*profile_),
+      inbox_(inbox_bytes, profile_->line.queue_lines),
+      outbox_(outbox_bytes, outbox_messages),
+      scratch_(scratch_bytes) {
+    output_.reserve(1024);
+    if (services.eeprom != nullptr) {
+        machine_.eeprom_image = services.eeprom->load().value_or(std::string{});
+    }
+    for (const behaviour::VariableInfo& info : profile_->variables) {
+        variables_.push_back(info.initial);
+    }
+}
+
+Board::~Board() = default;
+
+Scope Board::scope(const protocol::Command* command) {
+    return {machine_, std::span<double>(variables_), command, nullptr, 0};
+}
+
+void Board::notice(Level level, std::string_view text) {
+    if (options_.observer != nullptr) {
+        options_.observer->on_notice(time_, level, text);
+    }
+}
+
+void Board::power_on(SimTime now) {
+    time_ = power_on_ = now;
+    last_tick_ = now - profile_->tick;
+    inbox_.clear();
+    outbox_.clear();
+    screen_splitter_.reset();
+    host_splitter_.reset();
+    machine_.power_on(now);
+    for (std::size_t i = 0; i < variables_.size(); ++i) {
+        variables_[i] = profile_->variables[i].initial;
+    }
+    ActionContext context{machine_, *this};
+    for (const behaviour::ActionCall& call : profile_->defaults) {
+        behaviour::run_action(call, scope(), profile_->variables, context);
+    }
+    machine_.factory_image = behaviour::make_image(machine_);
+    if (machine_.eeprom_image.empty()) {
+        machine_.eeprom_image = machine_.factory_image;
+    }
+    behaviour::load_fields(machine_, {});
+    machine_.events.clear();  // what setting up raised is nobody's business
+    wheel_.power_on(now);
+    for (const Send& entry : profile_->boot) {
+        send(entry, scope());
+    }
+}
+
+void Board::reload(std::shared_ptr<const behaviour::Profile> profile) {
+    std::vector<double> variables;
+    for (const behaviour::VariableInfo& info : profile->variables) {
+        const auto same =
+            std::find_if(profile_->variables.begin(), profile_->variables.end(),
+                         [&](const behaviour::VariableInfo& old) { return old.name == info.name; });
+        const double value = same == profile_->variables.end()
+                                 ? info.initial
+                                 : variables_[static_cast<std::size_t>(same - profile_->variables.begin())];
+        variables.push_back(std::clamp(value, info.min, info.max));
+    }
+    profile_ = std::move(profile);
+    variables_ = std::move(variables);
+    wheel_.reload(*profile_);
+    told_.clear();
+}
+
+void Board::receive(SimTime now, std::string_view bytes) {
+    time_ = std::max(now, time_);
+    screen_splitter_.feed(bytes, [this](std::string_view line) { take_line(Channel::screen, line); });
+}
+
+void Board::receive_host(SimTime now, std::string_view bytes) {
+    time_ = std::max(now, time_);
+    host_splitter_.feed(bytes, [this](std::string_view line) { take_line(Channel::host, line); });
+}
+
+void Board::take_line(Channel channel, std::string_view line) {
+    ++counters_.lines_received;
+    const protocol::ChecksumPolicy policy =
+        channel == Channel::screen ? profile_->line.checksum : protocol::ChecksumPolicy::if_present;
+    const protocol::Unframed unframed = protocol::unframe(line, policy);
+    Verdict verdict = Verdict::accepted;
+    const bool at_once = channel == Channel::host || (!options_.pacing && output_.size() < output_limit);
+    if (unframed.fault != protocol::FrameFault::none) {
+        ++counters_.bad_frames;
+        verdict = Verdict::bad_frame;
+    } else if (!at_once && !inbox_.push(unframed.body)) {
+        ++counters_.requests_lost;
+        verdict = Verdict::queue_full;
+    }
+    if (options_.observer != nullptr) {
+        options_.observer->on_received(time_, channel, line, verdict);
+    }
+    if (verdict == Verdict::accepted && at_once) {
+        machine_.advance(time_);
+        execute(channel, unframed.body);
+        settle();
+    }
+}
+
+void Board::execute(Channel channel, std::string_view body) {
+    const auto command = protocol::parse_command(body);
+    if (!command) {
+        return;  // a frame around nothing
+    }
+    const std::vector<Rule>* rules =
+        channel == Channel::screen ? profile_->screen_rules(*command) : profile_->host_rules(*command);
+    if (rules == nullptr) {
+        ++counters_.unknown_codes;
+        report_unknown(command->word, "is not in the profile");
+    } else if (!run_rules(*rules, &*command)) {
+        ++counters_.unmatched;
+        report_unknown(body, "has parameters that no rule of the profile is for");
+    }
+}
+
+void Board::report_unknown(std::string_view word, std::string_view why) {
+    if (options_.observer == nullptr || told_.size() >= told_limit || told_.contains(word)) {
+        return;
+    }
+    told_.emplace(word);
+    notice(Level::warning, std::string(word.substr(0, 60)) + " " + std::string(why) + "; ignored");
+}
+
+bool Board::run_rules(const std::vector<Rule>& rules, const protocol::Command* command) {
+    const Scope here = scope(command);
+    for (const Rule& rule : rules) {
+        if (behaviour::all_hold(rule.when, here)) {
+            run_rule(rule, here);
+            return true;
+        }
+    }
+    return false;
+}
+
+void Board::run_rule(const Rule& rule, const Scope& here) {
+    ActionContext context{machine_, *this};
+    for (const behaviour::ActionCall& call : rule.actions) {
+        behaviour::run_action(call, here, profile_->variables, context);
+    }
+    if (context.reset) {
+        power_on(time_);
+        return;
+    }
+    for (const Send& entry : rule.send) {
+        send(entry, here);
+    }
+}
+
+/// After anything that may have changed the machine: events, and what the main loop lost by it.
+void Board::settle() {
+    run_events();
+    if (const int rounds = machine_.motion.take_lost_rounds(); rounds > 0) {
+        wheel_.lose_rounds(rounds);
+    }
+    if (const SimTime stall = machine_.take_stall(); stall > SimTime{0}) {
+        wheel_.stall(stall);
+    }
+    if (wheel_.frozen() && !behaviour::all_hold(profile_->schedule.frozen_while, scope())) {
+        wheel_.thaw(time_);
+    }
+}
+
+void Board::run_events() {
+    for (int i = 0; i < event_limit; ++i) {
+        const auto event = machine_.events.take();
+        if (!event) {
+            return;
+        }
+        run_rules(profile_->events[static_cast<std::size_t>(*event)], nullptr);
+    }
+    machine_.events.clear();
+    notice(Level::error, "the profile's events raise each other without end; the rest was dropped");
+}
+
+bool Board::world(SimTime now, std::string_view phrase) {
+    const behaviour::ActionInfo* info = behaviour::find_world_action(phrase);
+    if (info == nullptr || std::any_of(info->args.begin(), info->args.end(),
+                                       [](const behaviour::ArgInfo& a) { return a.required; })) {
+        return false;
+    }
+    behaviour::ActionCall call;
+    call.info = info;
+    call.args.resize(info->args.size());
+    act(now, call);
+    return true;
+}
+
+void Board::act(SimTime now, const behaviour::ActionCall& call) {
+    time_ = std::max(now, time_);
+    machine_.advance(time_);
+    ActionContext context{machine_, *this};
+    behaviour::run_action(call, scope(), profile_->variables, context);
+    if (context.reset) {
+        power_on(time_);
+    }
+    settle();
+}
+
+void Board::send(const Send& entry, const Scope& here) {
+    if (!behaviour::all_hold(entry.when, here)) {
+        return;
+    }
+    const Frame& frame = profile_->frames[entry.frame];
+    for (unsigned i = 0; i < entry.times; ++i) {
+        const std::string_view message(scratch_.data(), compose(frame, here));
+        wheel_.sent(entry.frame, machine_);
+        if (!frame.then.empty()) {
+            ActionContext context{machine_, *this};
+            for (const behaviour::ActionCall& call : frame.then) {
+                behaviour::run_action(call, here, profile_->variables, context);
+            }
+        }
+        if (entry.now || !options_.pacing) {
+            emit(message);
+        } else if (!outbox_.push(message)) {
+            ++counters_.messages_lost;
+            notice(Level::warning, "message " + frame.name + " lost: the board's transmit queue is full");
+        }
+    }
+}
+
+std::size_t Board::compose_line(const Frame& frame, const behaviour::FrameTemplate& text, const Scope& here,
+                                std::size_t at, std::size_t end) {
+    std::array<char, protocol::max_line_bytes> body;
+    bool cut = false;
+    const std::size_t size = text.render(here, body, cut);
+    counters_.lines_cut += cut ? 1 : 0;
+    return at + protocol::write_frame(std::span<char>(scratch_).subspan(at, end - at), {body.data(), size},
+                                      frame.style);
+}
+
+std::size_t Board::compose(const Frame& frame, const Scope& here) {
+    std::size_t size = 0;
+    for (const Frame::Line& line : frame.lines) {
+        if (!line.for_each_entry) {
+            size = compose_line(frame, line.text, here, size, scratch_bytes);
+            continue;
+        }
+        Scope inside = here;
+        for (const printer::CardEntry& entry : machine_.listing()) {
+            inside.entry = &entry;
+            size = compose_line(frame, line.text, inside, size, std::max(size, scratch_bytes - closing_room));
+            ++inside.index;
+        }
+    }
+    return size;
+}
+
+void Board::emit(std::string_view message) {
+    output_.append(message);
+    while (!message.empty()) {
+        const std::size_t end = std::min(message.find('\n'), message.size() - 1);
+        ++counters_.lines_sent;
+        if (options_.observer != nullptr) {
+            const std::string_view line = message.substr(0, end);
+            options_.observer->on_sent(time_, line.substr(0, line.find_last_not_of("\r\n") + 1));
+        }
+        message.remove_prefix(end + 1);
+    }
+}
+
+SimTime Board::next_tick() const {
+    if (inbox_.empty() && outbox_.empty()) {
+        return never;
+    }
+    if (!options_.pacing) {
+        return time_;
+    }
+    const SimTime tick = profile_->tick;
+    const SimTime::rep passed = (time_ - power_on_ + tick - SimTime{1}) / tick;
+    return std::max(power_on_ + passed * tick, last_tick_ + tick);
+}
+
+SimTime Board::next_due() const {
+    const SimTime wheel =
+        wheel_.next_slot() <= time_
+            ? wheel_.next_slot()
+            : wheel_.next_due({const_cast<printer::Printer&>(machine_), {}, nullptr, nullptr, 0},
+                              machine_.restless());
+    return std::min({machine_.next_event(), next_tick(), wheel});
+}
+
+void Board::run_slots() {
+    // Slots passed over because nothing could come of them are gone through now, for their rounds to count.
+    while (wheel_.next_slot() <= time_ && output_.size() < output_limit) {
+        const behaviour::Slot* slot = wheel_.turn(scope());
+        if (slot != nullptr) {
+            Send entry;
+            entry.frame = *slot->frame;
+            send(entry, scope());
+        }
+    }
+}
+
+void Board::run_tick() {
+    last_tick_ = time_;
+    if (!outbox_.empty()) {
+        emit(outbox_.front());
+        outbox_.pop();
+    }
+    if (!inbox_.empty()) {
+        std::array<char, protocol::max_line_bytes> line;
+        const std::string_view front = inbox_.front();
+        const std::size_t size = front.copy(line.data(), line.size());
+        inbox_.pop();  // before it is executed: a reset empties the queue
+        execute(Channel::screen, {line.data(), size});
+        settle();
+    }
+}
+
+SimTime Board::advance(SimTime now) {
+    while (output_.empty()) {
+        const SimTime due = next_due();
+        if (due > now) {
+            time_ = std::max(time_, now);
+            return due;
+        }
+        time_ = std::max(time_, due);
+        machine_.advance(time_);
+        settle();
+        run_slots();
+        if (next_tick() <= time_) {
+            run_tick();
+        }
+    }
+    return next_due();
+}
+
+}  // namespace fauxboard::board

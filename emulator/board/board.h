@@ -1,0 +1,150 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "emulator/behaviour/notice.h"
+#include "emulator/behaviour/profile.h"
+#include "emulator/board/message_queue.h"
+#include "emulator/board/wheel.h"
+#include "emulator/printer/printer.h"
+#include "emulator/printer/sim_time.h"
+#include "protocol/framing.h"
+
+namespace fauxboard::board {
+
+using behaviour::Level;
+using printer::SimTime;
+
+/// The two lines of a control board.
+enum class Channel : std::uint8_t {
+    screen,  ///< the 4-pin plug of the touch screen
+    host,    ///< the USB port, where a PC sends G-code
+};
+
+/// What became of a received line.
+enum class Verdict : std::uint8_t { accepted, bad_frame, queue_full, unknown };
+
+/// Told what passes, as it passes. Must not call back into the board.
+class Observer {
+  public:
+    virtual ~Observer() = default;
+    /// One line arrived, line end removed, prefix and checksum still on it. The verdict is that of the
+    /// moment: whether it was taken; an unknown code is found out only when the line is executed.
+    virtual void on_received(SimTime now, Channel channel, std::string_view line, Verdict verdict) = 0;
+    /// One line was put on the wire to the screen, line end removed.
+    virtual void on_sent(SimTime now, std::string_view line) = 0;
+    /// Something a person wants to know: a clamped value, an unknown code, a lost message.
+    virtual void on_notice(SimTime now, Level level, std::string_view text) = 0;
+};
+
+struct Options {
+    bool pacing = true;  ///< replies leave on the transmit tick; without it, at once
+    std::uint64_t seed = 1;
+    Observer* observer = nullptr;
+};
+
+/// Everything that was counted since the board was made.
+struct Counters {
+    std::uint64_t lines_received = 0;
+    std::uint64_t lines_sent = 0;
+    std::uint64_t bad_frames = 0;  ///< wrong, missing or malformed checksum where one was needed
+    std::uint64_t unknown_codes = 0;
+    std::uint64_t unmatched = 0;      ///< known code, but no rule for its parameters
+    std::uint64_t requests_lost = 0;  ///< more waiting than the board has room for
+    std::uint64_t messages_lost = 0;  ///< same, outwards
+    std::uint64_t lines_cut = 0;      ///< frames longer than a line may be
+};
+
+/// One virtual control board: bytes in, bytes out, time in. No clock, no I/O, no threads; many boards may
+/// share a profile.
+///
+/// Use: power_on(), then receive() when bytes come and advance() when the time it returned has come. After
+/// each call take output(). Times never go back. advance() stops at the first output, so that every output
+/// has its exact time.
+class Board final : private behaviour::NoticeSink {
+  public:
+    Board(std::shared_ptr<const behaviour::Profile> profile, printer::Services services, Options options);
+    ~Board() override;
+    Board(const Board&) = delete;
+    Board& operator=(const Board&) = delete;
+
+    /// Switches the board on, or resets it: queues are emptied, the boot messages queued, the schedule starts
+    /// anew.
+    void power_on(SimTime now);
+
+    /// Bytes from the screen; any split of the stream gives the same result.
+    void receive(SimTime now, std::string_view bytes);
+    /// Bytes from the USB side.
+    void receive_host(SimTime now, std::string_view bytes);
+    /// Does something to the machine: an action without required arguments, by name or by phrase ("filament
+    /// in"). False when there is none of that name.
+    bool world(SimTime now, std::string_view phrase);
+    /// Carries out one compiled action, as world() does.
+    void act(SimTime now, const behaviour::ActionCall& call);
+
+    /// Does what is due up to `now`, but stops as soon as there is output. Returns when it wants to be called
+    /// next; that may be in the past if it stopped early.
+    SimTime advance(SimTime now);
+
+    /// Bytes for the screen, since the last clear_output().
+    std::string_view output() const { return output_; }
+    void clear_output() { output_.clear(); }
+    /// The moment of the last thing done.
+    SimTime time() const { return time_; }
+
+    /// Puts a changed profile in force: frames, rules and schedule at once; the machine's constants at the
+    /// next start of the program. State, queues and variables of the same name stay.
+    void reload(std::shared_ptr<const behaviour::Profile> profile);
+
+    const Counters& counters() const { return counters_; }
+    std::uint64_t lines_too_long() const { return screen_splitter_.too_long() + host_splitter_.too_long(); }
+    std::uint64_t nul_bytes() const { return screen_splitter_.nuls() + host_splitter_.nuls(); }
+    const behaviour::Profile& profile() const { return *profile_; }
+    printer::Printer& machine() { return machine_; }
+    const printer::Printer& machine() const { return machine_; }
+
+  private:
+    void notice(Level level, std::string_view text) override;
+    void take_line(Channel channel, std::string_view line);
+    void execute(Channel channel, std::string_view body);
+    void run_rule(const behaviour::Rule& rule, const behaviour::Scope& scope);
+    bool run_rules(const std::vector<behaviour::Rule>& rules, const protocol::Command* command);
+    void run_events();
+    void settle();
+    void send(const behaviour::Send& send, const behaviour::Scope& scope);
+    std::size_t compose(const behaviour::Frame& frame, const behaviour::Scope& scope);
+    std::size_t compose_line(const behaviour::Frame& frame, const behaviour::FrameTemplate& text,
+                             const behaviour::Scope& scope, std::size_t at, std::size_t end);
+    void emit(std::string_view message);
+    void run_slots();
+    void run_tick();
+    SimTime next_tick() const;
+    SimTime next_due() const;
+    void report_unknown(std::string_view word, std::string_view why);
+    behaviour::Scope scope(const protocol::Command* command = nullptr);
+
+    std::shared_ptr<const behaviour::Profile> profile_;
+    Options options_;
+    printer::Printer machine_;
+    Wheel wheel_;
+    protocol::LineSplitter screen_splitter_;
+    protocol::LineSplitter host_splitter_;
+    MessageQueue inbox_;
+    MessageQueue outbox_;
+    std::string output_;
+    std::vector<char> scratch_;
+    std::vector<double> variables_;
+    Counters counters_;
+    SimTime time_{0};
+    SimTime power_on_{0};
+    SimTime last_tick_{0};
+    std::set<std::string, std::less<>> told_;  ///< unknown codes already warned of, bounded
+};
+
+}  // namespace fauxboard::board

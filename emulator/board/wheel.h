@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "emulator/behaviour/profile.h"
+#include "emulator/printer/sim_time.h"
+
+namespace fauxboard::board {
+
+using printer::SimTime;
+
+/// The board's status wheel: slots of fixed length, round after round, each perhaps sending one frame. Keeps
+/// what each slot needs to decide (rounds, values last sent); whoever turns it sends.
+///
+/// It needs no turning while nothing can come of it: next_due() looks ahead to the first slot that may send.
+class Wheel {
+  public:
+    explicit Wheel(const behaviour::Profile& profile) { reload(profile); }
+
+    /// Another profile's slots and watched values; the wheel's place is kept as far as it fits.
+    void reload(const behaviour::Profile& profile);
+    void power_on(SimTime now);
+
+    /// The time of the slot that comes next; `never` while frozen or without slots.
+    SimTime next_slot() const { return next_; }
+
+    /// The time of the next slot that may send. With `volatile_state`, any slot with a frame may; else those
+    /// whose conditions hold as things are.
+    SimTime next_due(const behaviour::Scope& scope, bool volatile_state) const;
+
+    /// Goes over the slot that comes next. Returns the frame it sends, if any.
+    const behaviour::Slot* turn(const behaviour::Scope& scope);
+
+    /// The frame went out, for whatever reason: its watched values are those of now.
+    void sent(std::size_t frame, const printer::Printer& machine);
+
+    /// Stands still for whole rounds, or for some time.
+    void lose_rounds(int rounds);
+    void stall(SimTime time);
+
+    /// While frozen the wheel stands at its slot; it goes on one slot's time after the thaw.
+    bool frozen() const { return frozen_; }
+    void thaw(SimTime now);
+
+  private:
+    struct SlotState {
+        std::uint64_t base = 0;       ///< round from which `every_rounds` counts
+        std::uint64_t last_sent = 0;  ///< round + 1 in which it last sent, 0 never
+    };
+
+    bool changed(const std::vector<std::size_t>& which, std::size_t frame,
+                 const printer::Printer& machine) const;
+    bool conditions_hold(std::size_t index, const behaviour::Scope& scope) const;
+    bool sent_this_round(std::size_t frame) const;
+
+    const behaviour::Profile* profile_ = nullptr;
+    std::vector<SlotState> slots_;
+    std::vector<std::size_t> watch_from_;  ///< per frame, where its watched values start
+    std::vector<double> watched_;
+    std::size_t index_ = 0;
+    std::uint64_t round_ = 0;
+    SimTime next_ = printer::never;
+    bool frozen_ = false;
+};
+
+}  // namespace fauxboard::board

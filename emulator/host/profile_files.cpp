@@ -1,0 +1,129 @@
+#include "emulator/host/profile_files.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+
+#include "emulator/behaviour/nearest.h"
+
+namespace fauxboard::host {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::uintmax_t max_profile_bytes = 4U * 1024 * 1024;
+
+std::optional<behaviour::SourceText> read(const fs::path& file) {
+    std::error_code error;
+    if (!fs::is_regular_file(file, error) || fs::file_size(file, error) > max_profile_bytes) {
+        return std::nullopt;
+    }
+    std::ifstream in(file, std::ios::binary);
+    if (!in) {
+        return std::nullopt;
+    }
+    std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+    return behaviour::SourceText{file.string(), std::move(text)};
+}
+
+bool is_path(std::string_view name) {
+    return name.find('/') != std::string_view::npos || name.ends_with(".json");
+}
+
+std::optional<behaviour::SourceText> find(std::string_view name, std::string_view from) {
+    const fs::path beside = from.empty() ? fs::path{} : fs::path(from).parent_path();
+    if (is_path(name)) {
+        return read(from.empty() ? fs::path(name) : beside / name);
+    }
+    const std::string file = std::string(name) + ".json";
+    if (!from.empty()) {
+        if (auto found = read(beside / file)) {
+            return found;
+        }
+    }
+    for (const fs::path& folder : profile_folders()) {
+        if (auto found = read(folder / file)) {
+            return found;
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<fs::path> profile_folders() {
+    std::vector<fs::path> folders;
+    if (const char* list = std::getenv("FAUXBOARD_PROFILES"); list != nullptr) {
+        std::string_view rest(list);
+        while (!rest.empty()) {
+            const std::size_t colon = std::min(rest.find(':'), rest.size());
+            if (colon != 0) {
+                folders.emplace_back(rest.substr(0, colon));
+            }
+            rest.remove_prefix(std::min(colon + 1, rest.size()));
+        }
+    }
+    folders.emplace_back(FAUXBOARD_SOURCE_PROFILES);
+    folders.emplace_back(FAUXBOARD_INSTALLED_PROFILES);
+    return folders;
+}
+
+behaviour::SourceFinder profile_finder() {
+    return find;
+}
+
+std::shared_ptr<const behaviour::Profile> load_profile_by_name(std::string_view name) {
+    const auto source = find(name, {});
+    if (source) {
+        return behaviour::load_profile(*source, find);
+    }
+    behaviour::Problem problem;
+    problem.file = std::string(name);
+    if (is_path(name)) {
+        problem.message = "no such file, or it cannot be read, or it is larger than 4 MiB";
+    } else {
+        const std::vector<ProfileEntry> entries = list_profiles();
+        std::vector<std::string_view> names;
+        problem.message = "there is no profile of this name; known:";
+        for (const ProfileEntry& entry : entries) {
+            names.emplace_back(entry.name);
+            problem.message += ' ' + entry.name;
+        }
+        problem.nearest = std::string(behaviour::nearest(name, names));
+    }
+    throw behaviour::ProfileError({problem});
+}
+
+std::vector<ProfileEntry> list_profiles() {
+    std::vector<ProfileEntry> entries;
+    for (const fs::path& folder : profile_folders()) {
+        std::error_code error;
+        for (const auto& item : fs::directory_iterator(folder, error)) {
+            if (item.path().extension() != ".json") {
+                continue;
+            }
+            const auto source = read(item.path());
+            if (!source) {
+                continue;
+            }
+            const auto json = behaviour::Json::parse(source->text, nullptr, false);
+            if (!json.is_object() || !json.contains("name") || !json["name"].is_string()) {
+                continue;
+            }
+            const auto title = json.find("title");
+            entries.push_back(
+                {json["name"].get<std::string>(),
+                 title != json.end() && title->is_string() ? title->get<std::string>() : std::string{},
+                 item.path()});
+        }
+    }
+    std::stable_sort(entries.begin(), entries.end(),
+                     [](const ProfileEntry& a, const ProfileEntry& b) { return a.name < b.name; });
+    // The same name twice: the first folder's file is the one that is used.
+    entries.erase(std::unique(entries.begin(), entries.end(),
+                              [](const ProfileEntry& a, const ProfileEntry& b) { return a.name == b.name; }),
+                  entries.end());
+    return entries;
+}
+
+}  // namespace fauxboard::host

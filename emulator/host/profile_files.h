@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "emulator/behaviour/profile.h"
+
+namespace fauxboard::host {
+
+/// Where profiles are looked for by name, first hit wins: the folders of the environment variable
+/// FAUXBOARD_PROFILES (parted by ':'), the folder the program was built from, the folder it was installed to.
+std::vector<std::filesystem::path> profile_folders();
+
+/// Reads profiles from files. A name with a slash or ending in ".json" is a path (relative to the file that
+/// extends it, or to the current folder); any other is looked for beside the extending file and in
+/// profile_folders().
+behaviour::SourceFinder profile_finder();
+
+/// Loads a profile by name or path. Throws behaviour::ProfileError, also when there is no such file; then the
+/// names that exist are told, the nearest first.
+std::shared_ptr<const behaviour::Profile> load_profile_by_name(std::string_view name);
+
+/// A profile file that was found, for lists.
+struct ProfileEntry {
+    std::string name;
+    std::string title;
+    std::filesystem::path file;
+};
+/// All profiles in profile_folders(), by name; files that are no profiles are passed over.
+std::vector<ProfileEntry> list_profiles();
+
+}  // namespace fauxboard::host

@@ -1,0 +1,186 @@
+#include "emulator/link/pty_link.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <termios.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <utility>
+
+#include "emulator/link/link_name.h"
+#include "emulator/link/peer_watch.h"
+#include "emulator/link/stream_link.h"
+#include "emulator/link/unique_fd.h"
+
+namespace fauxboard::link {
+
+namespace {
+
+/// A pseudo-terminal of our own.
+///
+/// While a peer is watched for we do not hold the slave open ourselves: then the kernel tells the truth about
+/// the last peer's leaving (the master reads what is left, then EIO, and polls as hung up), and inotify only
+/// has to tell that somebody came. The master is not read while nobody is there. Settings are made through
+/// the master, where Linux applies them to the slave.
+class PtyLink final : public StreamLink {
+  public:
+    PtyLink(asio::io_context& context, std::string link_name, bool watch_peers)
+        : StreamLink(context),
+          watch_events_(context),
+          name_(std::move(link_name)),
+          watch_peers_(watch_peers) {}
+    ~PtyLink() override { close(); }
+
+    std::string describe() const override {
+        return name_.empty() ? "pty " + path_ : fmt::format("pty {} (link {})", path_, name_);
+    }
+    std::string kind() const override { return "pty"; }
+    std::string path() const override { return path_; }
+
+  private:
+    void open_device() override;
+    void close_device() override;
+    void on_end(const std::string& why) override;
+    bool keeps_backlog() const override { return true; }
+
+    void open_master();
+    void hold_slave();
+    bool make_raw() const;
+    void forget_unread() const;
+    void await_peer();
+    void on_watch();
+
+    asio::posix::stream_descriptor watch_events_;  ///< borrows watch_'s descriptor
+    std::string name_;
+    bool watch_peers_;
+    std::string path_;
+    UniqueFd master_;
+    UniqueFd slave_;  ///< only where peers cannot be watched for
+    PeerWatch watch_;
+    LinkName link_;
+};
+
+[[noreturn]] void fail(const char* what) {
+    throw LinkError(fmt::format("No pseudo-terminal: {}: {}.", what, error_text(errno)));
+}
+
+void PtyLink::open_device() {
+    open_master();
+    if (!name_.empty()) link_.create(name_, path_);
+    if (!watch_peers_ || !watch_.start(path_)) {
+        hold_slave();
+        attach(master_.get());
+        return go_up(
+            fmt::format("{} is open; there is no telling whether anybody is at the other end", path_));
+    }
+    asio::error_code error;
+    watch_events_.assign(watch_.fd(), error);
+    if (error) throw LinkError(fmt::format("The event loop cannot watch {}: {}.", path_, error.message()));
+    await_peer();
+    go_waiting(fmt::format("{} is open; waiting for somebody to open its other end", path_));
+}
+
+void PtyLink::open_master() {
+    master_.reset(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+    if (!master_) fail("the system gives none");
+    std::array<char, 128> path{};
+    if (::grantpt(master_.get()) != 0 || ::unlockpt(master_.get()) != 0) fail("it cannot be unlocked");
+    if (::ptsname_r(master_.get(), path.data(), path.size()) != 0) fail("it has no name");
+    path_ = path.data();
+    if (!make_raw()) fail("it cannot be set to raw");
+}
+
+// A slave that nobody has open makes the master fail; where we cannot tell whether there is a peer, we are
+// one.
+void PtyLink::hold_slave() {
+    slave_.reset(::open(path_.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+    if (!slave_) fail("its other end cannot be opened");
+}
+
+void PtyLink::close_device() {
+    if (watch_events_.is_open()) watch_events_.release();
+    watch_.stop();
+    link_.remove();
+    slave_.reset();
+    master_.reset();
+}
+
+// ---- peers ----
+
+void PtyLink::await_peer() {
+    watch_events_.async_wait(asio::posix::stream_descriptor::wait_read,
+                             guarded([this](const asio::error_code& error) {
+                                 if (error) return;
+                                 await_peer();
+                                 on_watch();
+                             }));
+}
+
+void PtyLink::on_watch() {
+    const PeerWatch::Seen seen = watch_.take();
+    const bool nobody = hung_up(master_.get());
+    if (state() == LinkState::up) {
+        if (nobody) return;  // the read loop delivers what is left, then finds the end
+        if (seen.reopened) {
+            // One left and the next came before we looked.
+            drop_pending();
+            forget_unread();
+            go_waiting(fmt::format("{} was closed at its other end", path_));
+            go_up(fmt::format("{} was opened at its other end", path_));
+        }
+        if (watch_.count() == 0) watch_.set_count(1);
+        return;
+    }
+    if (!seen.opened) return;
+    try {
+        if (!attached()) attach(master_.get());
+    } catch (const LinkError& error) {
+        return note(error.what());
+    }
+    // One that has come and gone is heard, but it is not the one that the backlog is for.
+    if (!nobody) go_up(fmt::format("{} was opened at its other end", path_));
+}
+
+void PtyLink::on_end(const std::string& /*why*/) {
+    detach();
+    watch_.set_count(0);
+    if (state() != LinkState::up) return;
+    // A peer that came this very moment may have made its own settings.
+    if (!hung_up(master_.get()) || !make_raw()) forget_unread();
+    go_waiting(fmt::format("{} was closed at its other end; what is sent now is lost", path_));
+}
+
+// ---- settings ----
+
+// No echo, no translation of line ends; whatever the last peer made of it. Drops what the slave has not read.
+bool PtyLink::make_raw() const {
+    termios settings{};
+    if (::tcgetattr(master_.get(), &settings) != 0) return false;
+    ::cfmakeraw(&settings);
+    (void)::tcflush(master_.get(), TCOFLUSH);
+    return ::tcsetattr(master_.get(), TCSAFLUSH, &settings) == 0;
+}
+
+// tcflush() on the master empties what is on its way to the slave, but not what waits in the slave to be
+// read. Setting the same settings again with TCSAFLUSH does, without opening the slave, which would look like
+// a peer.
+void PtyLink::forget_unread() const {
+    termios settings{};
+    if (::tcgetattr(master_.get(), &settings) != 0) return;
+    (void)::tcflush(master_.get(), TCOFLUSH);
+    (void)::tcsetattr(master_.get(), TCSAFLUSH, &settings);
+}
+
+}  // namespace
+
+std::unique_ptr<Link> make_pty_link(asio::io_context& context, std::string link_name, bool watch_peers) {
+    return std::make_unique<PtyLink>(context, std::move(link_name), watch_peers);
+}
+
+std::unique_ptr<Link> make_pty_link(asio::io_context& context, std::string link_name) {
+    return make_pty_link(context, std::move(link_name), true);
+}
+
+}  // namespace fauxboard::link

@@ -1,0 +1,110 @@
+#pragma once
+
+// Internal to emulator/link.
+
+#include <sys/types.h>
+
+#include <array>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "emulator/link/event_loop.h"
+#include "emulator/link/link.h"
+#include "emulator/link/pending_bytes.h"
+
+namespace fauxboard::link {
+
+/// What every link shares: the read loop, direct writes with a bounded rest, loss counting, telling the
+/// listener. A derived class opens a descriptor, lends it with attach(), and decides what the end of the
+/// stream means.
+///
+/// One ready descriptor costs one read() and one re-arming of the event loop; a message costs one write().
+/// Derived destructors must call close().
+class StreamLink : public Link {
+  public:
+    void open(LinkListener& listener) final;
+    void close() final;
+    void write(std::string_view message) final;
+    LinkState state() const final { return state_; }
+    const LinkStats& stats() const final { return stats_; }
+
+  protected:
+    explicit StreamLink(asio::io_context& context) : context_(context), descriptor_(context) {}
+
+    /// Opens, and calls attach(), go_up(), go_waiting() as fits. Throws LinkError; close_device() follows
+    /// then.
+    virtual void open_device() = 0;
+    /// Gives everything back. Called with no descriptor attached; must cope with a half-opened device.
+    virtual void close_device() = 0;
+    /// The attached stream ended or broke: `why` is the system's text ("Input/output error") or "end of
+    /// file".
+    virtual void on_end(const std::string& why) = 0;
+    /// As ::read: -1 with errno, EAGAIN where there is nothing; 0 is the end of the stream.
+    virtual ssize_t read_some(int fd, char* data, std::size_t size);
+    /// As ::write.
+    virtual ssize_t write_some(int fd, const char* data, std::size_t size);
+    /// Whether what is written before the first go_up() is kept (up to backlog_limit).
+    virtual bool keeps_backlog() const { return false; }
+
+    /// Borrows `fd` (non-blocking) and reads it from now on. Throws LinkError if the event loop refuses it.
+    void attach(int fd);
+    /// Gives the descriptor back, unclosed.
+    void detach();
+    bool attached() const { return descriptor_.is_open(); }
+
+    void go_up(std::string why);
+    void go_waiting(std::string why);
+    /// A sentence for the listener, the state unchanged.
+    void note(std::string why);
+    /// Counts what has not been sent yet as lost.
+    void drop_pending();
+    bool was_up() const { return was_up_; }  ///< since open()
+
+    asio::io_context& context() { return context_; }
+
+    /// Wraps a handler of the event loop so that it does nothing once this link has been closed or destroyed.
+    template <class Handler>
+    auto guarded(Handler handler) {
+        return
+            [session = std::weak_ptr<char>(session_), handler = std::move(handler)](auto&&... args) mutable {
+                if (!session.expired()) handler(std::forward<decltype(args)>(args)...);
+            };
+    }
+
+  private:
+    enum class Took : std::uint8_t { bytes, nothing, end, left };
+
+    void wait_readable();
+    void wait_writable();
+    void on_readable();
+    Took take();
+    void flush_pending();
+    void send_now(std::string_view message);
+    void keep(std::string_view message, std::size_t limit);
+    void lose(std::string_view message);
+    void fail_later(int error);
+    void announce(LinkState state, std::string why);
+
+    asio::io_context& context_;
+    asio::posix::stream_descriptor descriptor_;  ///< borrows: released, never closed
+    LinkListener* listener_ = nullptr;
+    std::shared_ptr<char> session_;  ///< lives from open() to close(); handlers hold it weakly
+    unsigned attach_count_ = 0;      ///< tells a handler of a former descriptor from one of this
+    LinkState state_ = LinkState::opening;
+    bool was_up_ = false;
+    bool broken_ = false;  ///< a write failed; on_end() is on its way
+    bool writable_awaited_ = false;
+    LinkStats stats_;
+    PendingBytes pending_;
+    std::string end_reason_;
+    std::array<char, read_limit> buffer_{};
+};
+
+/// "No such file or directory" for ENOENT.
+std::string error_text(int error);
+/// Whether the other side of a terminal is gone. For reads that return nothing, where that may mean either.
+bool hung_up(int fd);
+
+}  // namespace fauxboard::link

@@ -1,0 +1,64 @@
+#include "emulator/printer/events.h"
+
+namespace fauxboard::printer {
+namespace {
+
+constexpr std::array<EventInfo, event_count> table{{
+    {EventId::motion_homed, "motion.homed", "a full homing run has ended; X, Y and Z are known"},
+    {EventId::motion_axis_homed, "motion.axis_homed", "homing of single axes has ended"},
+    {EventId::motion_bed_probed, "motion.bed_probed", "the nine points of the bed have been probed"},
+    {EventId::motion_probed, "motion.probed", "the probe has measured one point"},
+    {EventId::motion_parked, "motion.parked", "the head has reached its parking place"},
+    {EventId::babystep_changed, "babystep.changed", "the babystep offset has a new value"},
+    {EventId::heating_wait_started, "heating.wait_started",
+     "the board began to wait for a temperature (M109, M190)"},
+    {EventId::heating_wait_report, "heating.wait_report",
+     "the waiting loop is due to report the temperatures, every 2 s with a hiccup each 51.2 s"},
+    {EventId::heating_wait_done, "heating.wait_done",
+     "the temperature waited for is there, or the wait was broken off"},
+    {EventId::filament_piece, "filament.piece",
+     "the extruder has begun one more piece while loading, unloading or cleaning"},
+    {EventId::filament_stopped, "filament.stopped", "loading, unloading or cleaning has come to its end"},
+    {EventId::filament_too_cold, "filament.too_cold", "the nozzle is too cold to move filament"},
+    {EventId::filament_inserted, "filament.inserted", "filament was put into the detector"},
+    {EventId::filament_removed, "filament.removed", "filament was taken out of the detector"},
+    {EventId::filament_out, "filament.out", "the enabled detector ran empty while printing"},
+    {EventId::card_inserted, "card.inserted", "the SD card was put in"},
+    {EventId::card_removed, "card.removed", "the SD card was taken out, or was missing at power-on"},
+    {EventId::file_selected, "file.selected", "a file to print was selected"},
+    {EventId::file_missing, "file.missing", "the file to select does not exist"},
+    {EventId::file_unreadable, "file.unreadable", "the file to select cannot be opened"},
+    {EventId::job_started, "job.started", "the selected file starts to print"},
+    {EventId::job_pausing, "job.pausing", "a pause was asked for again while the first one is under way"},
+    {EventId::job_paused, "job.paused", "the job has come to rest with the head parked"},
+    {EventId::job_resumed, "job.resumed", "a paused job goes on"},
+    {EventId::job_stopped, "job.stopped", "the job was stopped before its end"},
+    {EventId::job_finished, "job.finished", "the job reached its end"},
+}};
+
+consteval bool ordered() {
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        if (static_cast<std::size_t>(table[i].id) != i) {
+            return false;
+        }
+    }
+    return true;
+}
+static_assert(ordered(), "the table stands in the order of EventId");
+
+}  // namespace
+
+std::span<const EventInfo> events() {
+    return table;
+}
+
+std::optional<EventId> find_event(std::string_view name) {
+    for (const EventInfo& event : table) {
+        if (event.name == name) {
+            return event.id;
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace fauxboard::printer

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "emulator/printer/events.h"
+#include "emulator/printer/machine_config.h"
+#include "emulator/printer/sim_time.h"
+#include "emulator/printer/state.h"
+
+namespace fauxboard::printer {
+
+/// A G0/G1 as it stands on the line.
+struct MoveRequest {
+    AxisTargets values{};               ///< mm, absolute or relative as G90/G91 say
+    std::optional<double> feed_mm_min;  ///< F; stays in force for later moves
+    bool force_relative = false;        ///< move by `values` whatever G90/G91 say
+    bool limits = true;                 ///< keep inside the build volume (software end stops)
+};
+
+enum class MoveOutcome : std::uint8_t { accepted, clamped, queue_full };
+
+/// Moves, homing and probing in closed form: every step knows its end when it starts, nothing ticks in
+/// between.
+///
+/// What a board of this family reports is the destination of the last move *accepted into the planner*, and
+/// the feed of the move being *executed*; so the position runs ahead of the feed by the planner's buffer.
+class Motion {
+  public:
+    Motion(const MotionConfig& config, const Settings& settings);
+
+    /// The board forgets where it is; the head stays where it stands.
+    void power_on();
+
+    /// Carries out everything that ends at or before `now`.
+    void advance(SimTime now, EventQueue& events);
+    /// When the step under way ends; `never` when idle.
+    SimTime next_event() const { return busy() ? step_end_ : never; }
+
+    MoveOutcome move(const MoveRequest& request, SimTime now, EventQueue& events);
+    /// Queues a procedure. False when the queue has no room for it; then nothing is queued.
+    bool run(const Procedure& procedure, SimTime now, EventQueue& events);
+    /// Drops what is queued and stops the step under way where it stands.
+    void abort();
+
+    void set_relative(bool relative) { relative_ = relative; }
+    bool relative() const { return relative_; }
+    void set_position(const AxisTargets& values);  // G92
+    void set_motors(bool on);
+    bool motors() const { return motors_; }
+    bool homed() const { return (homed_ & 7U) == 7U; }
+    bool busy() const { return count_ != 0; }
+    /// Destination of the last accepted move, mm.
+    double position(Axis axis) const { return accepted_[static_cast<std::size_t>(axis)]; }
+    /// Feed of the move being executed, mm/s; keeps its last value when idle.
+    double feed_mm_s() const { return shown_feed_; }
+    void show_feed(double feed_mm_s) { shown_feed_ = feed_mm_s; }
+    double babystep_mm() const { return babystep_; }
+    void set_babystep(double mm) { babystep_ = mm; }
+    int speed_percent() const { return speed_percent_; }
+    void set_speed_percent(int percent) { speed_percent_ = percent; }
+    /// Rounds that the status wheel is to leave out; asking takes them.
+    int take_lost_rounds();
+
+  private:
+    struct Step {
+        ProcedureStep what;
+        AxisValues target{};    ///< where it ends, mm
+        bool buffered = false;  ///< a plain move: the planner takes it ahead of its turn
+        bool accepted = false;
+    };
+    static constexpr std::size_t capacity = 64;
+
+    Step& at(std::size_t i) { return ring_[(head_ + i) % capacity]; }
+    void enqueue(const ProcedureStep& step, bool buffered);
+    void accept_ahead();
+    void begin(SimTime now, EventQueue& events);
+    void finish(EventQueue& events);
+    double duration_s(const Step& step) const;
+    double bed_height_mm(double x, double y) const;
+
+    const MotionConfig& config_;
+    const Settings& settings_;
+    std::array<Step, capacity> ring_{};
+    std::size_t head_ = 0;
+    std::size_t count_ = 0;
+    SimTime step_end_ = never;
+    AxisValues planned_{};            ///< end of everything queued
+    AxisValues accepted_{};           ///< what L1 shows
+    AxisValues executed_{};           ///< where the head is, between steps
+    std::array<double, 3> offset_{};  ///< head minus logical position: unknown to the board until homed
+    double modal_feed_;
+    double shown_feed_ = 0;
+    double babystep_ = 0;
+    int speed_percent_ = 100;
+    int lost_rounds_ = 0;
+    std::uint8_t homed_ = 0;
+    bool relative_ = false;
+    bool motors_ = false;
+};
+
+}  // namespace fauxboard::printer

@@ -1,0 +1,260 @@
+#include "emulator/printer/printer.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace fauxboard::printer {
+namespace {
+
+/// After power-on the board looks for the card in its main loop, not before: the recorded boot without a card
+/// tells of it between the first real temperatures (0.85 s) and the first L21 (1.75 s).
+constexpr SimTime card_check_delay{1'200'000};
+
+}  // namespace
+
+Printer::Printer(std::shared_ptr<const MachineConfig> config, Services services, std::uint64_t seed)
+    : thermal(config->thermal, seed),
+      motion(config->motion, settings),
+      feeder(config->filament),
+      config_(std::move(config)),
+      services_(services),
+      random_state_(seed ^ 0x9E3779B97F4A7C15ULL) {
+    if (services_.sd == nullptr && config_->card.present) {
+        built_in_.emplace(config_->card.entries);
+    }
+    insert_card(0);
+    if (config_->udisk_port) {
+        insert_card(1);
+    }
+    events.clear();
+}
+
+void Printer::power_on(SimTime now) {
+    now_ = now;
+    thermal.power_on(now);
+    settings = Settings{};
+    motion.power_on();
+    feeder.power_on();
+    wait.power_on();
+    mixer.power_on();
+    addons = AddOns{};
+    fans = Fans{};
+    leveling = Leveling{};
+    leveling.manual_z_mm = config_->manual_level_start_mm;
+    filament.detector = Filament{}.detector;  // whether filament is in it is physical and stays
+    storage.choose(0);
+    job.power_on();
+    screen = ScreenSide{};
+    wifi = Wifi{};
+    steppers = Steppers{};
+    events.clear();
+    stall_ = SimTime{0};
+    card_check_ = storage.usable(0) ? never : now + card_check_delay;
+}
+
+void Printer::advance(SimTime now) {
+    // Events must come in their order, so time moves from one to the next.
+    for (SimTime next = next_event(); next <= now; next = next_event()) {
+        now_ = next;
+        thermal.advance(next);
+        const bool was_moving = motion.busy();
+        motion.advance(next, events);
+        feeder.advance(next, events);
+        wait.advance(next, thermal, events);
+        if (card_check_ <= next) {
+            card_check_ = never;
+            events.raise(EventId::card_removed);
+        }
+        if (was_moving) {
+            emit_after_motion();
+        }
+    }
+    thermal.advance(now);
+    now_ = now;
+}
+
+SimTime Printer::next_event() const {
+    return std::min({motion.next_event(), feeder.next_event(), wait.next_event(), card_check_});
+}
+
+bool Printer::restless() const {
+    return motion.busy() || feeder.mode() != Feeder::Mode::idle || wait.active() || !thermal.settled() ||
+           job.status() == JobStatus::printing;
+}
+
+void Printer::emit_after_motion() {
+    if (job.pausing() && !motion.busy()) {
+        job.pause(now_);
+        events.raise(EventId::job_paused);
+    }
+}
+
+bool Printer::home(unsigned mask) {
+    if (mask == 0 || mask == static_cast<unsigned>(HomeAxes::all)) {
+        return run("home");
+    }
+    constexpr std::array<std::string_view, 3> names{"home_x", "home_y", "home_z"};
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if ((mask & (1U << i)) != 0 && !run(names[i])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool Printer::run(std::string_view procedure) {
+    const auto& known = config_->motion.procedures;
+    const auto hit = known.find(procedure);
+    return hit != known.end() && motion.run(hit->second, now_, events);
+}
+
+void Printer::motors_off() {
+    motion.set_motors(false);
+}
+
+void Printer::feed(Feeder::Mode mode) {
+    if (thermal.temperature_c(HeaterId::nozzle) < config_->filament.min_extrude_c) {
+        events.raise(EventId::filament_too_cold);
+        return;
+    }
+    motion.set_motors(true);
+    motion.show_feed(config_->filament.feed_mm_s);
+    feeder.start(mode, now_);
+}
+
+void Printer::feed_once() {
+    if (thermal.temperature_c(HeaterId::nozzle) < config_->filament.min_extrude_c) {
+        events.raise(EventId::filament_too_cold);
+        return;
+    }
+    motion.set_motors(true);
+    motion.show_feed(config_->filament.feed_mm_s);
+    feeder.feed_once(now_);
+}
+
+void Printer::set_filament(bool present) {
+    if (filament.present == present) {
+        return;
+    }
+    filament.present = present;
+    events.raise(present ? EventId::filament_inserted : EventId::filament_removed);
+    if (!present && filament.detector && job.status() == JobStatus::printing) {
+        events.raise(EventId::filament_out);
+    }
+}
+
+void Printer::insert_card(int disk) {
+    Volume* volume = disk == 1 ? services_.udisk : services_.sd;
+    if (volume == nullptr && disk == 0 && built_in_) {
+        volume = &*built_in_;
+    }
+    const bool was_there = storage.usable(disk);
+    storage.attach(disk, volume);
+    if (storage.usable(disk) && !was_there) {
+        events.raise(EventId::card_inserted);
+    }
+}
+
+void Printer::remove_card(int disk) {
+    const bool was_there = storage.usable(disk);
+    storage.attach(disk, nullptr);
+    if (was_there) {
+        events.raise(EventId::card_removed);
+    }
+}
+
+void Printer::select_file(std::string_view name) {
+    Storage::Found found = storage.find(name);
+    switch (found.kind) {
+        case Volume::Kind::file:
+            job.select(storage.chosen(), std::move(found.path), found.bytes);
+            events.raise(EventId::file_selected);
+            break;
+        case Volume::Kind::folder:
+        case Volume::Kind::unreadable:
+            events.raise(EventId::file_unreadable);
+            break;
+        case Volume::Kind::missing:
+            events.raise(EventId::file_missing);
+            break;
+    }
+}
+
+bool Printer::start_or_resume_job() {
+    if (job.resume(now_)) {
+        events.raise(EventId::job_resumed);
+        return true;
+    }
+    if (job.start(now_)) {
+        events.raise(EventId::job_started);
+        return true;
+    }
+    return false;
+}
+
+void Printer::pause_job() {
+    if (job.pausing()) {
+        events.raise(EventId::job_pausing);
+        return;
+    }
+    if (!job.begin_pause()) {
+        return;
+    }
+    if (!run("park") || !motion.busy()) {
+        emit_after_motion();
+    }
+}
+
+bool Printer::stop_job() {
+    if (!job.stop()) {
+        return false;
+    }
+    motion.abort();
+    thermal.set_target(HeaterId::nozzle, 0);
+    thermal.set_target(HeaterId::bed, 0);
+    events.raise(EventId::job_stopped);
+    return true;
+}
+
+bool Printer::finish_job() {
+    if (!job.finish(now_)) {
+        return false;
+    }
+    events.raise(EventId::job_finished);
+    return true;
+}
+
+void Printer::emergency_stop() {
+    job.stop();
+    feeder.power_on();
+    wait.cancel(events);
+    thermal.set_target(HeaterId::nozzle, 0);
+    thermal.set_target(HeaterId::bed, 0);
+    motors_off();
+}
+
+int Printer::disk_code() const {
+    const int sd = static_cast<int>(storage.state(0));
+    return config_->udisk_port ? sd + 16 * static_cast<int>(storage.state(1)) : sd;
+}
+
+const std::vector<CardEntry>& Printer::listing() {
+    storage.listing(listing_, config_->card.max_listed);
+    return listing_;
+}
+
+SimTime Printer::take_stall() {
+    const SimTime time = stall_;
+    stall_ = SimTime{0};
+    return time;
+}
+
+double Printer::random() {
+    // splitmix64
+    std::uint64_t z = random_state_ += 0x9E3779B97F4A7C15ULL;
+    z = (z ^ z >> 30U) * 0xBF58476D1CE4E5B9ULL;
+    z = (z ^ z >> 27U) * 0x94D049BB133111EBULL;
+    return static_cast<double>((z ^ z >> 31U) >> 11U) * 0x1.0p-53;
+}
+
+}  // namespace fauxboard::printer

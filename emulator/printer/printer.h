@@ -1,0 +1,136 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "emulator/printer/events.h"
+#include "emulator/printer/feeder.h"
+#include "emulator/printer/heating_wait.h"
+#include "emulator/printer/job.h"
+#include "emulator/printer/machine_config.h"
+#include "emulator/printer/mixer.h"
+#include "emulator/printer/motion.h"
+#include "emulator/printer/sim_time.h"
+#include "emulator/printer/state.h"
+#include "emulator/printer/storage.h"
+#include "emulator/printer/thermal.h"
+
+namespace fauxboard::printer {
+
+/// Where the board's EEPROM lives. The image is text, one `path value` a line; who stores it need not read
+/// it.
+class EepromStore {
+  public:
+    virtual ~EepromStore() = default;
+    /// The stored image; nothing when none was ever stored or it is broken.
+    virtual std::optional<std::string> load() = 0;
+    /// Stores the whole image so that a kill at any moment leaves the old one or the new one. False when it
+    /// could not.
+    virtual bool save(std::string_view image) = 0;
+};
+
+/// What the world lends to a machine. Everything may be null: no such disk, EEPROM in memory only.
+struct Services {
+    Volume* sd = nullptr;
+    Volume* udisk = nullptr;
+    EepromStore* eeprom = nullptr;
+};
+
+/// The machine behind the board: parts, their state, and the time they share. Knows no messages and does no
+/// I/O but through Services.
+class Printer {
+  public:
+    /// `config` is shared by all boards of a profile and must not change.
+    Printer(std::shared_ptr<const MachineConfig> config, Services services, std::uint64_t seed);
+    Printer(const Printer&) = delete;
+    Printer& operator=(const Printer&) = delete;
+
+    /// Switches the board on, or resets it: everything in RAM takes its default, what is physical stays as it
+    /// is (real temperatures, where the head stands, filament, cards).
+    void power_on(SimTime now);
+
+    /// Brings everything up to `now` and raises the events due. Steps may have any length.
+    void advance(SimTime now);
+    /// When advance() must next be called because an event falls due; `never` if nothing is under way.
+    SimTime next_event() const;
+    /// Whether anything the board shows may change by the mere passing of time.
+    bool restless() const;
+    SimTime now() const { return now_; }
+    const MachineConfig& config() const { return *config_; }
+
+    // Actions that touch more than one part.
+    // ------------------------------------------------------------------------
+    enum class HomeAxes : std::uint8_t { x = 1, y = 2, z = 4, all = 7 };
+    /// Homes the axes of the mask (bit 0 X, 1 Y, 2 Z; 0 means all). False when the motion queue is full.
+    bool home(unsigned mask);
+    /// Runs a procedure of the profile. False when there is none of that name or the motion queue is full.
+    bool run(std::string_view procedure);
+    void motors_off();
+    /// M2105 S2/S3/S5. A nozzle below the extrusion minimum raises `filament.too_cold` and nothing moves.
+    void feed(Feeder::Mode mode);
+    void feed_once();
+    void set_filament(bool present);
+    void insert_card(int disk);
+    void remove_card(int disk);
+    void select_file(std::string_view name);
+    bool start_or_resume_job();
+    void pause_job();
+    bool stop_job();
+    bool finish_job();
+    /// M112: job, heaters and motors off at once.
+    void emergency_stop();
+    /// Filament state as L3 tells it: 255 detector off, else 1 with and 0 without filament.
+    int filament_code() const { return !filament.detector ? 255 : filament.present ? 1 : 0; }
+    /// Both disks as L2 tells them: SD in the low nibble, U-disk in the high one when the board has such a
+    /// port.
+    int disk_code() const;
+    /// The entries to show now; the buffer is reused.
+    const std::vector<CardEntry>& listing();
+
+    Thermal thermal;
+    Settings settings;
+    Motion motion;
+    Feeder feeder;
+    HeatingWait wait;
+    Mixer mixer;
+    AddOns addons;
+    Fans fans;
+    Leveling leveling;
+    Filament filament;
+    Storage storage;
+    Job job;
+    ScreenSide screen;
+    Wifi wifi;
+    Steppers steppers;
+    PowerLoss power_loss;
+    EventQueue events;
+
+    /// What the EEPROM holds, and what it is written to.
+    std::string eeprom_image;
+    /// The same for a machine fresh from the factory (M502).
+    std::string factory_image;
+    EepromStore* eeprom_store() const { return services_.eeprom; }
+    /// Time for which the main loop stands still because of a write (M500); asking takes it.
+    SimTime take_stall();
+    void stall(SimTime time) { stall_ += time; }
+    /// A number in [0, 1) of this machine's own sequence.
+    double random();
+
+  private:
+    void emit_after_motion();
+
+    std::shared_ptr<const MachineConfig> config_;
+    Services services_;
+    std::optional<BuiltInVolume> built_in_;
+    std::vector<CardEntry> listing_;
+    SimTime now_{0};
+    SimTime card_check_ = never;  ///< when the board finds out that there is no card
+    SimTime stall_{0};
+    std::uint64_t random_state_;
+};
+
+}  // namespace fauxboard::printer

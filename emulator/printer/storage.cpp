@@ -1,0 +1,176 @@
+#include "emulator/printer/storage.h"
+
+#include <algorithm>
+
+namespace fauxboard::printer {
+namespace {
+
+constexpr std::size_t max_path_bytes = 255;
+constexpr std::string_view way_back = "Main";
+
+std::string_view last_part(std::string_view path) {
+    const std::size_t slash = path.rfind('/');
+    return slash == std::string_view::npos ? path : path.substr(slash + 1);
+}
+
+std::string_view parent(std::string_view path) {
+    const std::size_t slash = path.rfind('/');
+    return slash == std::string_view::npos ? std::string_view{} : path.substr(0, slash);
+}
+
+std::string_view without_volume(std::string_view name) {
+    const std::size_t colon = name.find(':');
+    // "SD1:", "SD:", "UDISK:": a short word before a colon names the disk, not a folder.
+    if (colon != std::string_view::npos && colon <= 5 && name.find('/') > colon) {
+        return name.substr(colon + 1);
+    }
+    return name;
+}
+
+}  // namespace
+
+bool clean_path(std::string_view folder, std::string_view name, std::string& out) {
+    if (name.size() > max_path_bytes) {
+        return false;
+    }
+    const std::string_view rest = without_volume(name);
+    const bool absolute = rest.size() != name.size() || rest.starts_with('/');
+    out.assign(absolute ? std::string_view{} : folder);
+    std::size_t at = 0;
+    while (at <= rest.size()) {
+        const std::size_t slash = std::min(rest.find('/', at), rest.size());
+        const std::string_view part = rest.substr(at, slash - at);
+        at = slash + 1;
+        if (part.empty() || part == ".") {
+            continue;
+        }
+        const bool control = std::any_of(part.begin(), part.end(),
+                                         [](char c) { return static_cast<unsigned char>(c) < 0x20; });
+        if (part == ".." || control || out.size() + part.size() + 1 > max_path_bytes) {
+            return false;
+        }
+        if (!out.empty()) {
+            out += '/';
+        }
+        out += part;
+    }
+    return true;
+}
+
+void Storage::attach(int disk, Volume* volume) {
+    volumes_[index(disk)] = volume;
+    states_[index(disk)] = volume != nullptr ? DiskState::ok : DiskState::removed;
+    if (disk == chosen_) {
+        folder_.clear();
+    }
+}
+
+bool Storage::choose(int disk) {
+    if (disk != 0 && disk != 1) {
+        return false;
+    }
+    chosen_ = disk;
+    folder_.clear();
+    return true;
+}
+
+bool Storage::enter(std::string_view name) {
+    const std::string_view bare = without_volume(name);
+    const std::string_view plain = bare.starts_with('/') ? bare.substr(1) : bare;
+    if (!folder_.empty() && plain.size() == way_back.size() + 1 + last_part(folder_).size() &&
+        plain.starts_with(way_back) && last_part(plain) == last_part(folder_)) {
+        folder_ = std::string(parent(folder_));
+        return true;
+    }
+    std::string path;
+    std::uint64_t bytes = 0;
+    if (!usable(chosen_) || !clean_path(folder_, name, path)) {
+        return false;
+    }
+    if (!path.empty() && volumes_[index(chosen_)]->look(path, bytes) != Volume::Kind::folder) {
+        return false;
+    }
+    folder_ = path;
+    return true;
+}
+
+void Storage::listing(std::vector<CardEntry>& out, unsigned limit) const {
+    out.clear();
+    if (!usable(chosen_)) {
+        return;
+    }
+    if (!folder_.empty()) {
+        out.push_back({std::string(way_back) + "/" + std::string(last_part(folder_)), true, 0});
+    }
+    volumes_[index(chosen_)]->list(folder_, out);  // a folder that vanished meanwhile shows nothing
+    if (out.size() > limit) {
+        out.resize(limit);
+    }
+}
+
+Storage::Found Storage::find(std::string_view name) const {
+    Found found;
+    if (!usable(chosen_)) {
+        return found;
+    }
+    const Volume& volume = *volumes_[index(chosen_)];
+    const auto look = [&](std::string_view candidate) {
+        std::string path;
+        if (candidate.empty() || !clean_path(folder_, candidate, path) || path.empty()) {
+            return false;
+        }
+        found.kind = volume.look(path, found.bytes);
+        found.path = std::move(path);
+        return found.kind != Volume::Kind::missing;
+    };
+    if (look(name)) {
+        return found;
+    }
+    const std::size_t star = name.rfind('*');
+    if (star != std::string_view::npos &&
+        name.find_first_not_of("0123456789", star + 1) == std::string_view::npos) {
+        look(name.substr(0, star));
+    }
+    return found;
+}
+
+const BuiltInEntry* BuiltInVolume::find(std::string_view path) const {
+    const std::vector<BuiltInEntry>* level = &root_;
+    while (true) {
+        const std::size_t slash = path.find('/');
+        const std::string_view part = path.substr(0, slash);
+        const auto hit =
+            std::find_if(level->begin(), level->end(), [&](const BuiltInEntry& e) { return e.name == part; });
+        if (hit == level->end() || slash == std::string_view::npos) {
+            return hit == level->end() ? nullptr : &*hit;
+        }
+        level = &hit->entries;
+        path.remove_prefix(slash + 1);
+    }
+}
+
+bool BuiltInVolume::list(std::string_view folder, std::vector<CardEntry>& out) const {
+    const std::vector<BuiltInEntry>* level = &root_;
+    if (!folder.empty()) {
+        const BuiltInEntry* entry = find(folder);
+        if (entry == nullptr || !entry->folder) {
+            return false;
+        }
+        level = &entry->entries;
+    }
+    for (const BuiltInEntry& e : *level) {
+        out.push_back({e.name, e.folder, e.content.size()});
+    }
+    return true;
+}
+
+Volume::Kind BuiltInVolume::look(std::string_view path, std::uint64_t& bytes) const {
+    const BuiltInEntry* entry = find(path);
+    if (entry == nullptr) {
+        return Kind::missing;
+    }
+    bytes = entry->content.size();
+    return entry->folder ? Kind::folder : Kind::file;
+}
+
+}  // namespace fauxboard::printer

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "emulator/printer/machine_config.h"
+
+namespace fauxboard::printer {
+
+struct CardEntry {
+    std::string name;
+    bool folder = false;
+    std::uint64_t bytes = 0;
+};
+
+/// A disk as the board sees it. Paths are relative to its root, parts parted by '/', never starting with one,
+/// already cleaned by Storage: no "..", no empty parts. An implementation must still not follow anything out
+/// of its root.
+class Volume {
+  public:
+    virtual ~Volume() = default;
+    enum class Kind : std::uint8_t { missing, file, folder, unreadable };
+    /// Appends the entries of a folder, files first, then folders. False, and nothing added, when there is no
+    /// such folder.
+    virtual bool list(std::string_view folder, std::vector<CardEntry>& out) const = 0;
+    /// What stands at `path`, and its size if it is a file.
+    virtual Kind look(std::string_view path, std::uint64_t& bytes) const = 0;
+};
+
+/// The small card that a profile carries within itself.
+class BuiltInVolume final : public Volume {
+  public:
+    explicit BuiltInVolume(const std::vector<BuiltInEntry>& root) : root_(root) {}
+    bool list(std::string_view folder, std::vector<CardEntry>& out) const override;
+    Kind look(std::string_view path, std::uint64_t& bytes) const override;
+
+  private:
+    const BuiltInEntry* find(std::string_view path) const;
+    const std::vector<BuiltInEntry>& root_;
+};
+
+enum class DiskState : std::uint8_t { ok = 0, removed = 1, failed = 2 };
+
+/// SD card and U-disk: which one is chosen, which folder is shown, what a name on the line means.
+class Storage {
+  public:
+    static constexpr std::size_t disk_count = 2;  // 0 SD card, 1 U-disk
+
+    void attach(int disk, Volume* volume);  ///< nullptr takes it out
+    void set_state(int disk, DiskState state) { states_[index(disk)] = state; }
+    DiskState state(int disk) const { return states_[index(disk)]; }
+    bool usable(int disk) const {
+        return states_[index(disk)] == DiskState::ok && volumes_[index(disk)] != nullptr;
+    }
+
+    /// False unless `disk` is 0 or 1.
+    bool choose(int disk);
+    int chosen() const { return chosen_; }
+
+    void enter_root() { folder_.clear(); }
+    /// Enters what stands after `M20 file:`: "SD1:/A30T", "A30T", "/A30T/sub", "Main/A30T" (the way back: the
+    /// parent of the folder shown). Any attempt to leave the root, and a folder that is not there, leaves the
+    /// folder as it is.
+    bool enter(std::string_view name);
+    const std::string& folder() const { return folder_; }
+
+    /// What the screen shows of the folder: the way back first unless at the root, at most `limit` entries in
+    /// all.
+    void listing(std::vector<CardEntry>& out, unsigned limit) const;
+
+    struct Found {
+        Volume::Kind kind = Volume::Kind::missing;
+        std::string path;  ///< relative to the root
+        std::uint64_t bytes = 0;
+    };
+    /// The file that `name` means, relative to the folder shown. A checksum that a screen kept in the name
+    /// ("x.gco*74") is taken off when there is no file that is really called so.
+    Found find(std::string_view name) const;
+
+  private:
+    static std::size_t index(int disk) { return disk == 1 ? 1 : 0; }
+    std::array<Volume*, disk_count> volumes_{};
+    std::array<DiskState, disk_count> states_{DiskState::removed, DiskState::removed};
+    int chosen_ = 0;
+    std::string folder_;
+};
+
+/// Joins `name` to `folder` and cleans the result: volume names ("SD1:") and double slashes go. False when it
+/// would leave the root, holds a control character, or is longer than 255 bytes.
+bool clean_path(std::string_view folder, std::string_view name, std::string& out);
+
+}  // namespace fauxboard::printer

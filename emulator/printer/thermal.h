@@ -1,0 +1,115 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "emulator/printer/thermal_config.h"
+#include "emulator/printer/thermal_pid.h"
+#include "emulator/printer/thermal_plant.h"
+
+namespace fauxboard::printer {
+
+enum class HeaterId : std::uint8_t { nozzle, bed };
+
+/// The four temperatures a board prints: bed, nozzle, and the two inputs that have no sensor on a mixing
+/// printer.
+enum class ThermalChannel : std::uint8_t { bed, t0, t1, t2 };
+
+/// The heaters of a board and what it reads and prints of them. Everything happens at the measurements, every
+/// `period` from power-on (0.3 s on the A30T): read all channels, control both heaters. Between them nothing
+/// changes.
+///
+/// Use: advance(now) before reading or setting anything at `now`. Times never go back. Deterministic: the
+/// same config, seed and calls at the same times give the same bits, however often advance() is called in
+/// between.
+class Thermal {
+  public:
+    /// Unpowered, everything at ambient: no time passes until the first power_on(). `config` outlives this.
+    Thermal(const ThermalConfig& config, std::uint64_t seed);
+
+    /// The board (re)starts: controllers, targets and readings are forgotten, real temperatures kept. All
+    /// channels read 0.0 until the first measurement, one period from `now`.
+    void power_on(SimTime now);
+
+    /// Does all measurements due up to and including `now` (at least a period before `never`). O(1) while
+    /// settled().
+    void advance(SimTime now);
+
+    /// Heaters off and everything at ambient: nothing will ever change by itself. (Within 0.005 K of ambient
+    /// all is put exactly there.)
+    bool settled() const;
+
+    /// When the next measurement is due; `never` while settled or unpowered.
+    SimTime next_measurement() const;
+
+    /// The new target, 0 for off, in force from the next measurement. Kept within 0..max_target_c; returns
+    /// whether that changed it.
+    bool set_target(HeaterId id, double c);
+    double target_c(HeaterId id) const { return heater(id).target_c; }
+    bool heating(HeaterId id) const { return heater(id).target_c != 0; }
+
+    /// What the sensor really feels, at the last measurement.
+    double temperature_c(HeaterId id) const { return heater(id).plant.sensor_c(); }
+
+    /// What the board prints: quantised, and folded when the config says so. 0.0 before the first
+    /// measurement.
+    double printed_c(ThermalChannel channel) const { return printed_[static_cast<std::size_t>(channel)]; }
+
+    /// The heater's output, 0..1.
+    double power(HeaterId id) const { return share_of_full(heater(id)); }
+
+    /// Where M109/M190 stop waiting: printed >= target - done_within_c.
+    bool reached(HeaterId id) const;
+
+    /// The printed values of this moment were reported. moved_since_report() then turns true at the first
+    /// measurement that finds any channel 1.0 or more away from them, and stays so until the next report.
+    /// That rule explains every temperature frame the recorded board sent by itself. After power-on the
+    /// values reported are 0.0.
+    void mark_reported();
+    bool moved_since_report() const { return moved_; }
+
+    /// For tests and faults: the whole hotend or bed at `c`; the surroundings of both at `c`.
+    void set_temperature(HeaterId id, double c);
+    void set_ambient(double c);
+
+  private:
+    struct Heater {
+        Heater(const HeaterConfig& heater_config, SimTime period, ThermalChannel heater_channel)
+            : config(&heater_config),
+              plant(heater_config.plant, period),
+              pid(heater_config.pid),
+              channel(heater_channel) {}
+
+        const HeaterConfig* config;
+        ThermalPlant plant;
+        ThermalPid pid;
+        ThermalChannel channel;
+        double target_c{0};
+        double output{0};       // 0..max_output, constant until the next measurement
+        bool commanded{false};  // had a target at the last measurement
+    };
+
+    const Heater& heater(HeaterId id) const { return heaters_[static_cast<std::size_t>(id)]; }
+    Heater& heater(HeaterId id) { return heaters_[static_cast<std::size_t>(id)]; }
+    static double share_of_full(const Heater& h) { return h.output / h.config->pid.max_output; }
+    void measure();
+    void read_sensor(Heater& h);
+    void control(Heater& h);
+    void read_input(ThermalChannel channel, const SensorlessInputConfig& input);
+    void print(ThermalChannel channel, double read_c);
+    void watch();
+
+    const ThermalConfig* config_;
+    std::uint64_t seed_;
+    std::array<Heater, 2> heaters_;    // by HeaterId
+    std::array<double, 4> printed_{};  // by ThermalChannel
+    std::array<double, 4> reported_{};
+    SimTime next_{never};
+    std::uint64_t index_{0};           // of the next measurement, since construction
+    std::uint64_t since_power_on_{0};  // measurements
+    bool moved_{false};
+    bool at_rest_{false};
+};
+
+}  // namespace fauxboard::printer

@@ -1,0 +1,156 @@
+#include "protocol/command.h"
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+
+#include "protocol/scan.h"
+
+namespace fauxboard::protocol {
+
+namespace {
+
+constexpr double limit = 1e30;
+
+/// A number as written: digits without the point, and where the point stands.
+struct Decimal {
+    std::uint64_t mantissa = 0;  // the first 18 significant digits
+    int significant = 0;
+    int exponent = 0;
+    bool cut = false;  // digits beyond the 18th were left out
+};
+
+void add_digit(Decimal& decimal, char digit, bool fraction) {
+    if (decimal.significant == 18) {
+        decimal.cut = true;
+        if (!fraction) ++decimal.exponent;
+        return;
+    }
+    decimal.mantissa = decimal.mantissa * 10 + static_cast<std::uint64_t>(digit - '0');
+    if (decimal.mantissa != 0) ++decimal.significant;
+    if (fraction) --decimal.exponent;
+}
+
+int read_exponent(std::string_view text) {
+    const bool negative = text.front() == '-';
+    if (negative || text.front() == '+') text.remove_prefix(1);
+    int value = 0;
+    for (const char digit : text) {
+        value = std::min(value * 10 + (digit - '0'), 100'000);
+    }
+    return negative ? -value : value;
+}
+
+Decimal read_decimal(std::string_view text) {
+    Decimal decimal;
+    bool fraction = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '.') {
+            fraction = true;
+        } else if (text[i] == 'e') {
+            decimal.exponent += read_exponent(text.substr(i + 1));
+            break;
+        } else {
+            add_digit(decimal, text[i], fraction);
+        }
+    }
+    return decimal;
+}
+
+/// `text` is an unsigned number, complete.
+double magnitude(std::string_view text) {
+    static constexpr std::array<double, 23> powers{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                                   1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                                                   1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+    const Decimal decimal = read_decimal(text);
+    if (decimal.mantissa == 0) return 0.0;
+    if (decimal.significant <= 15 && decimal.exponent >= -22 && decimal.exponent <= 22) {
+        // Both factors are exact, so one operation rounds once: the nearest double, without the general
+        // algorithm.
+        const auto digits = static_cast<double>(decimal.mantissa);
+        const auto power =
+            static_cast<std::size_t>(decimal.exponent < 0 ? -decimal.exponent : decimal.exponent);
+        return std::min(limit, decimal.exponent < 0 ? digits / powers[power] : digits * powers[power]);
+    }
+    if (decimal.significant + decimal.exponent > 32) return limit;
+    double value = 0.0;  // stays so when the number is too small to hold
+    std::from_chars(text.data(), text.data() + text.size(), value);
+    return std::min(limit, value);
+}
+
+/// Marks where each parameter's value starts; see Command for the rule.
+void find_parameters(Command& command) {
+    const std::string_view text =
+        command.text.substr(0, static_cast<std::size_t>(std::numeric_limits<std::int16_t>::max()));
+    bool may_start = true;
+    for (std::size_t i = 0; i < text.size();) {
+        const char c = text[i++];
+        if (scan::is_blank(c)) {
+            may_start = true;
+        } else if (may_start && scan::is_capital(c)) {
+            std::int16_t& offset = command.offsets[static_cast<std::size_t>(c - 'A')];
+            if (offset < 0) offset = static_cast<std::int16_t>(i);
+            const std::size_t length = scan::number_length(text.substr(i));
+            may_start = length != 0;
+            i += length;
+        } else {
+            may_start = false;
+        }
+    }
+}
+
+}  // namespace
+
+double read_number(std::string_view text) {
+    text = text.substr(0, scan::number_length(text));
+    if (text.empty()) return 0.0;
+    const bool negative = text.front() == '-';
+    if (negative || text.front() == '+') text.remove_prefix(1);
+    const double value = magnitude(text);
+    return negative ? -value : value;
+}
+
+std::optional<double> Command::number_of(char parameter) const {
+    const std::int16_t offset = offset_of(parameter);
+    if (offset < 0) return std::nullopt;
+    const auto start = static_cast<std::size_t>(offset);
+    return read_number(text.substr(start + scan::blanks_at(text, start)));
+}
+
+std::string_view Command::value_of(std::string_view key) const {
+    if (key.empty()) return {};
+    for (std::size_t at = text.find(key); at != std::string_view::npos; at = text.find(key, at + 1)) {
+        if (at != 0 && !scan::is_blank(text[at - 1]) && text[at - 1] != ';') continue;
+        const std::string_view value = text.substr(at + key.size());
+        return value.substr(0, value.find_first_of(" \t"));
+    }
+    return {};
+}
+
+std::optional<Command> parse_command(std::string_view body) {
+    body.remove_prefix(scan::blanks_at(body, 0));
+    if (body.empty()) return std::nullopt;
+    Command command;
+    const char first = body.front();
+    std::size_t end = 1;
+    const bool coded = (first == 'G' || first == 'M' || first == 'T' || first == 'L') && body.size() > 1 &&
+                       scan::is_digit(body[1]);
+    if (coded) {
+        for (; end < body.size() && scan::is_digit(body[end]); ++end) {
+            command.number = command.number * 10 + static_cast<std::uint32_t>(body[end] - '0');
+            if (command.number > 65535) return std::nullopt;
+        }
+        command.letter = first;
+    } else {
+        while (end < body.size() && !scan::is_blank(body[end])) {
+            ++end;
+        }
+    }
+    command.word = body.substr(0, end);
+    command.text = body.substr(end);
+    command.argument = scan::trim_right(command.text.substr(scan::blanks_at(command.text, 0)));
+    find_parameters(command);
+    return command;
+}
+
+}  // namespace fauxboard::protocol

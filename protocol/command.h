@@ -1,0 +1,62 @@
+#pragma once
+
+// A request's body taken apart, without copying and without allocation.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace fauxboard::protocol {
+
+/// One request. All views point into the body it was parsed from.
+///
+/// A parameter is a capital letter behind a blank, behind the code, or behind another parameter's number
+/// ("G1X10Y20"), with or without a number after it. A small e is an exponent ("S1e9"), a capital E the
+/// extruder's parameter. Of a text ("M117 Layer 1") the table holds the letters its words start with, which
+/// harms nobody.
+struct Command {
+    char letter = 0;            ///< 'G', 'M', 'T' or 'L'; 0 for a word such as "log", and for anything else
+    std::uint32_t number = 0;   ///< 0..65535; 0 for a word
+    std::string_view word;      ///< the code or word as written: "M290", "log"
+    std::string_view text;      ///< all behind it, its leading blank included: "M117 Layer 1" -> " Layer 1"
+    std::string_view argument;  ///< the text without blanks at either end
+
+    /// Whether the parameter is there, with or without a number. False for anything but 'A'..'Z'.
+    bool has(char parameter) const { return offset_of(parameter) >= 0; }
+
+    /// The number of the parameter's first occurrence; nothing when it is absent. As the firmware's strtod
+    /// reads it: blanks before the number are skipped, an empty or unreadable number is 0.0. Unlike strtod it
+    /// takes no inf, nan or hexadecimal (0.0), and values beyond +-1e30 become +-1e30, so that the result is
+    /// always finite.
+    std::optional<double> number_of(char parameter) const;
+
+    /// What stands behind `key` ("FW:") up to the next blank or the end; empty when the key is absent. The
+    /// key counts at the start of the text, behind a blank and behind a semicolon only.
+    std::string_view value_of(std::string_view key) const;
+
+    /// Where each parameter's value starts in `text`, -1 when it is absent. Filled by parse_command.
+    std::array<std::int16_t, 26> offsets = none_present();
+
+  private:
+    static constexpr std::array<std::int16_t, 26> none_present() {
+        std::array<std::int16_t, 26> none{};
+        none.fill(-1);
+        return none;
+    }
+    std::int16_t offset_of(char parameter) const {
+        return parameter >= 'A' && parameter <= 'Z' ? offsets[static_cast<std::size_t>(parameter - 'A')]
+                                                    : std::int16_t{-1};
+    }
+};
+
+/// Takes a body (what unframe() returns) apart. A code is one of G M T L with digits right behind it; what
+/// follows the digits may be anything. All else is a word: the run up to the first blank, letter 0, so junk
+/// can be logged by it. Nothing for an empty or blank body and for a code over 65535.
+std::optional<Command> parse_command(std::string_view body);
+
+/// Reads a decimal number as number_of() does, from the first byte of `text`; what follows the number is left
+/// alone.
+double read_number(std::string_view text);
+
+}  // namespace fauxboard::protocol

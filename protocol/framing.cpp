@@ -1,0 +1,141 @@
+#include "protocol/framing.h"
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+
+#include "protocol/scan.h"
+
+namespace fauxboard::protocol {
+
+namespace {
+
+constexpr std::string_view prefix = "N-0 ";
+constexpr std::string_view line_end = "\r\n";
+
+char* put(char* at, std::string_view text) {
+    return std::copy(text.begin(), text.end(), at);
+}
+
+std::string_view strip_nuls(std::string_view line) {
+    while (!line.empty() && line.front() == '\0') {
+        line.remove_prefix(1);
+    }
+    while (!line.empty() && line.back() == '\0') {
+        line.remove_suffix(1);
+    }
+    return line;
+}
+
+int number_from(std::string_view digits) {
+    if (!digits.empty() && digits.front() == '+') digits.remove_prefix(1);
+    int value = 0;
+    const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (result.ec == std::errc::result_out_of_range) {
+        return digits.front() == '-' ? std::numeric_limits<int>::min() : std::numeric_limits<int>::max();
+    }
+    return value;
+}
+
+/// What the policy says about a line whose bytes XOR to `expected`. `keeps_ours`: a bare M23, see unframe().
+FrameFault judge(const scan::ChecksumToken& token, std::uint8_t expected, bool keeps_ours,
+                 ChecksumPolicy policy) {
+    if (policy == ChecksumPolicy::ignored) return FrameFault::none;
+    const bool required = policy == ChecksumPolicy::required;
+    switch (token.tail) {
+        case scan::StarTail::number:
+            if (keeps_ours && !required) return FrameFault::none;
+            return token.value == expected ? FrameFault::none : FrameFault::checksum_wrong;
+        case scan::StarTail::bad_number:
+            return FrameFault::checksum_malformed;
+        case scan::StarTail::no_star:
+            return required ? FrameFault::checksum_missing : FrameFault::none;
+        case scan::StarTail::nothing:
+        case scan::StarTail::other:
+            break;
+    }
+    return required ? FrameFault::checksum_malformed : FrameFault::none;
+}
+
+}  // namespace
+
+std::uint8_t xor_checksum(std::string_view bytes) {
+    // A plain loop without exits: the compiler turns it into vector code.
+    std::uint8_t sum = 0;
+    for (const char byte : bytes) {
+        sum = static_cast<std::uint8_t>(sum ^ static_cast<std::uint8_t>(byte));
+    }
+    return sum;
+}
+
+std::size_t write_frame(std::span<char> out, std::string_view body, FrameStyle style) {
+    std::array<char, 4> tail{'*'};  // star and up to three digits
+    std::size_t tail_size = 0;
+    if (style == FrameStyle::framed) {
+        const int sum = xor_checksum(prefix) ^ xor_checksum(body);
+        const auto end = std::to_chars(tail.data() + 1, tail.data() + tail.size(), sum).ptr;
+        tail_size = static_cast<std::size_t>(end - tail.data());
+    } else if (style == FrameStyle::star_only) {
+        tail_size = 1;
+    }
+    const std::string_view head = style == FrameStyle::bare ? std::string_view{} : prefix;
+    const std::size_t size = head.size() + body.size() + tail_size + line_end.size();
+    if (size > out.size()) return 0;
+    char* at = put(out.data(), head);
+    at = put(at, body);
+    at = put(at, {tail.data(), tail_size});
+    put(at, line_end);
+    return size;
+}
+
+std::string frame(std::string_view body, FrameStyle style) {
+    std::string line(prefix.size() + body.size() + 4 + line_end.size(), '\0');
+    line.resize(write_frame(line, body, style));
+    return line;
+}
+
+Unframed unframe(std::string_view line, ChecksumPolicy policy) {
+    line = strip_nuls(line);
+    line.remove_prefix(scan::blanks_at(line, 0));
+    Unframed result;
+    std::size_t start = 0;
+    while (const auto token = scan::prefix_at(line.substr(start))) {
+        result.prefixed = true;
+        result.line_number = number_from(token->number);
+        start += token->length;
+    }
+    result.body = line.substr(start);
+    if (!result.prefixed && scan::starts_with_word(line, "log")) return result;
+
+    const scan::ChecksumToken token = scan::checksum_of(line);
+    result.has_checksum = token.tail == scan::StarTail::number;
+    const bool keeps_ours = !result.prefixed && scan::starts_with_word(line, "M23");
+    const std::uint8_t expected = result.has_checksum ? xor_checksum(line.substr(0, token.star)) : 0;
+    result.fault = judge(token, expected, keeps_ours, policy);
+    if (token.tail != scan::StarTail::other || policy == ChecksumPolicy::required) {
+        // A prefix never holds a star, so the star stands at or behind the start of the body.
+        result.body = line.substr(start, token.star - start);
+    }
+    return result;
+}
+
+std::size_t plain_run(std::string_view bytes) {
+    // Eight bytes at a time: the expression is non-zero exactly when a byte is below 14, and so when one may
+    // be NUL, LF (10) or CR (13). Text has next to none of the others.
+    constexpr std::uint64_t ones = ~std::uint64_t{0} / 255;
+    std::size_t at = 0;
+    for (; at + 8 <= bytes.size(); at += 8) {
+        std::uint64_t word = 0;
+        std::memcpy(&word, bytes.data() + at, 8);
+        if (((word - ones * 14) & ~word & (ones * 128)) == 0) continue;
+        for (std::size_t i = at; i < at + 8; ++i) {
+            if (bytes[i] == '\0' || bytes[i] == '\n' || bytes[i] == '\r') return i;
+        }
+    }
+    for (; at < bytes.size(); ++at) {
+        if (bytes[at] == '\0' || bytes[at] == '\n' || bytes[at] == '\r') return at;
+    }
+    return at;
+}
+
+}  // namespace fauxboard::protocol
