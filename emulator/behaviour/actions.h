@@ -13,6 +13,7 @@ namespace fauxboard::behaviour {
 /// What an action may touch.
 struct ActionContext {
     printer::Printer& printer;
+    std::span<double> variables;  ///< the profile's own
     NoticeSink& notices;
     bool reset = false;  ///< set by board.reset; the board restarts when the rule is done
 };

@@ -17,8 +17,8 @@ namespace fauxboard::behaviour {
 
 /// What an expression of a profile can see while it is evaluated.
 struct Scope {
-    printer::Printer& printer;
-    std::span<double> variables;                 ///< the profile's own, one set per board
+    const printer::Printer& printer;
+    std::span<const double> variables;                 ///< the profile's own, one set per board
     const protocol::Command* command = nullptr;  ///< the request; null in events and on the schedule
     const printer::CardEntry* entry = nullptr;   ///< inside `for_each`
     std::size_t index = 0;

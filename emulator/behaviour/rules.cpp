@@ -45,7 +45,7 @@ void assign(const ActionCall& call, const Scope& scope, const std::vector<Variab
     }
     if (call.variable) {
         const VariableInfo& info = variables[*call.variable];
-        double& slot = scope.variables[*call.variable];
+        double& slot = context.variables[*call.variable];
         const double wanted = (call.add ? slot : 0.0) + value.number;
         slot = std::isfinite(wanted) ? std::clamp(wanted, info.min, info.max) : slot;
         return;
@@ -53,7 +53,7 @@ void assign(const ActionCall& call, const Scope& scope, const std::vector<Variab
     if (call.add) {
         value.number += call.field->get(scope.printer).number;
     }
-    switch (set_field(scope.printer, *call.field, value)) {
+    switch (set_field(context.printer, *call.field, value)) {
         case SetResult::done:
             break;
         case SetResult::clamped:

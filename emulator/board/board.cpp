@@ -49,8 +49,8 @@ Board::Board(std::shared_ptr<const behaviour::Profile> profile, printer::Service
 
 Board::~Board() = default;
 
-Scope Board::scope(const protocol::Command* command) {
-    return {machine_, std::span<double>(variables_), command, nullptr, 0};
+Scope Board::scope(const protocol::Command* command) const {
+    return {machine_, variables_, command, nullptr, 0};
 }
 
 void Board::notice(Level level, std::string_view text) {
@@ -70,7 +70,7 @@ void Board::power_on(SimTime now) {
     for (std::size_t i = 0; i < variables_.size(); ++i) {
         variables_[i] = profile_->variables[i].initial;
     }
-    ActionContext context{machine_, *this};
+    ActionContext context{machine_, variables_, *this};
     for (const behaviour::ActionCall& call : profile_->defaults) {
         behaviour::run_action(call, scope(), profile_->variables, context);
     }
@@ -173,7 +173,7 @@ bool Board::run_rules(const std::vector<Rule>& rules, const protocol::Command* c
 }
 
 void Board::run_rule(const Rule& rule, const Scope& here) {
-    ActionContext context{machine_, *this};
+    ActionContext context{machine_, variables_, *this};
     for (const behaviour::ActionCall& call : rule.actions) {
         behaviour::run_action(call, here, profile_->variables, context);
     }
@@ -228,7 +228,7 @@ bool Board::world(SimTime now, std::string_view phrase) {
 void Board::act(SimTime now, const behaviour::ActionCall& call) {
     time_ = std::max(now, time_);
     machine_.advance(time_);
-    ActionContext context{machine_, *this};
+    ActionContext context{machine_, variables_, *this};
     behaviour::run_action(call, scope(), profile_->variables, context);
     if (context.reset) {
         power_on(time_);
@@ -245,7 +245,7 @@ void Board::send(const Send& entry, const Scope& here) {
         const std::string_view message(scratch_.data(), compose(frame, here));
         wheel_.sent(entry.frame, machine_);
         if (!frame.then.empty()) {
-            ActionContext context{machine_, *this};
+            ActionContext context{machine_, variables_, *this};
             for (const behaviour::ActionCall& call : frame.then) {
                 behaviour::run_action(call, here, profile_->variables, context);
             }
@@ -313,10 +313,7 @@ SimTime Board::next_tick() const {
 
 SimTime Board::next_due() const {
     const SimTime wheel =
-        wheel_.next_slot() <= time_
-            ? wheel_.next_slot()
-            : wheel_.next_due({const_cast<printer::Printer&>(machine_), {}, nullptr, nullptr, 0},
-                              machine_.restless());
+        wheel_.next_slot() <= time_ ? wheel_.next_slot() : wheel_.next_due(scope(), machine_.restless());
     return std::min({machine_.next_event(), next_tick(), wheel});
 }
 

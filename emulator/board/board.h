@@ -127,7 +127,7 @@ class Board final : private behaviour::NoticeSink {
     SimTime next_tick() const;
     SimTime next_due() const;
     void report_unknown(std::string_view word, std::string_view why);
-    behaviour::Scope scope(const protocol::Command* command = nullptr);
+    behaviour::Scope scope(const protocol::Command* command = nullptr) const;
 
     std::shared_ptr<const behaviour::Profile> profile_;
     Options options_;
