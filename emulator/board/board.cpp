@@ -104,12 +104,12 @@ void Board::reload(std::shared_ptr<const behaviour::Profile> profile) {
 }
 
 void Board::receive(SimTime now, std::string_view bytes) {
-    time_ = std::max(now, time_);
+    catch_up(now);
     screen_splitter_.feed(bytes, [this](std::string_view line) { take_line(Channel::screen, line); });
 }
 
 void Board::receive_host(SimTime now, std::string_view bytes) {
-    time_ = std::max(now, time_);
+    catch_up(now);
     host_splitter_.feed(bytes, [this](std::string_view line) { take_line(Channel::host, line); });
 }
 
@@ -226,7 +226,7 @@ bool Board::world(SimTime now, std::string_view phrase) {
 }
 
 void Board::act(SimTime now, const behaviour::ActionCall& call) {
-    time_ = std::max(now, time_);
+    catch_up(now);
     machine_.advance(time_);
     ActionContext context{machine_, variables_, *this};
     behaviour::run_action(call, scope(), profile_->variables, context);
@@ -352,15 +352,26 @@ SimTime Board::advance(SimTime now) {
             time_ = std::max(time_, now);
             return due;
         }
-        time_ = std::max(time_, due);
-        machine_.advance(time_);
-        settle();
-        run_slots();
-        if (next_tick() <= time_) {
-            run_tick();
-        }
+        step(due);
     }
     return next_due();
+}
+
+void Board::step(SimTime due) {
+    time_ = std::max(time_, due);
+    machine_.advance(time_);
+    settle();
+    run_slots();
+    if (next_tick() <= time_) {
+        run_tick();
+    }
+}
+
+void Board::catch_up(SimTime now) {
+    for (SimTime due = next_due(); due < now; due = next_due()) {
+        step(due);
+    }
+    time_ = std::max(time_, now);
 }
 
 }  // namespace fauxboard::board

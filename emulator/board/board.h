@@ -28,7 +28,7 @@ enum class Channel : std::uint8_t {
 };
 
 /// What became of a received line.
-enum class Verdict : std::uint8_t { accepted, bad_frame, queue_full, unknown };
+enum class Verdict : std::uint8_t { accepted, bad_frame, queue_full };
 
 /// Told what passes, as it passes. Must not call back into the board.
 class Observer {
@@ -64,9 +64,10 @@ struct Counters {
 /// One virtual control board: bytes in, bytes out, time in. No clock, no I/O, no threads; many boards may
 /// share a profile.
 ///
-/// Use: power_on(), then receive() when bytes come and advance() when the time it returned has come. After
+/// Use: power_on(), then advance() when the time it returned has come, and receive() when bytes come. After
 /// each call take output(). Times never go back. advance() stops at the first output, so that every output
-/// has its exact time.
+/// has its exact time; call it before receive() for the same reason, though receive() makes up for what is
+/// overdue.
 class Board final : private behaviour::NoticeSink {
   public:
     Board(std::shared_ptr<const behaviour::Profile> profile, printer::Services services, Options options);
@@ -122,6 +123,8 @@ class Board final : private behaviour::NoticeSink {
     std::size_t compose_line(const behaviour::Frame& frame, const behaviour::FrameTemplate& text,
                              const behaviour::Scope& scope, std::size_t at, std::size_t end);
     void emit(std::string_view message);
+    void step(SimTime due);
+    void catch_up(SimTime now);
     void run_slots();
     void run_tick();
     SimTime next_tick() const;

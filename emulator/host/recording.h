@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <iosfwd>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "emulator/printer/sim_time.h"
+
+namespace fauxboard::host {
+
+/// One entry of a recording: a line of the wire, or something done to the machine.
+struct RecordedLine {
+    enum class From : std::uint8_t {
+        board,   ///< the board said it to the screen
+        screen,  ///< the screen said it to the board
+        host,    ///< a command that came in over the board's USB port
+        world,   ///< done to the machine by hand: "filament in", "board reset"
+    };
+    printer::SimTime t{0};  ///< end of the line on the wire, from the start of the recording
+    From from = From::board;
+    std::string bytes;  ///< the line as it went over the wire, without its line end; of `world` the words
+};
+
+/// "board", "screen", "host" or "world".
+std::string_view from_name(RecordedLine::From from);
+
+/// A recording that cannot be read. what() is "FILE:LINE: what was found and what was expected".
+class RecordingError : public std::runtime_error {
+  public:
+    RecordingError(std::string_view file, std::size_t line, std::string_view message);
+};
+
+/// Reads JSON lines, one entry each:
+///     {"t": 16.451778, "from": "screen", "line": "N-0 M2134 FW:V1.02.xx*84"}
+///     {"t": 135.5, "from": "world", "do": "filament in"}
+/// `t` is in seconds, bytes stand as the characters of the same number (0xFF is \u00ff), blank lines are
+/// skipped, keys other than these are left alone. A line of the file may have 64 KiB; memory does not grow
+/// with the file.
+class RecordingReader {
+  public:
+    /// `name` is what errors call the file. `in` outlives the reader.
+    RecordingReader(std::istream& in, std::string name) : in_(in), name_(std::move(name)) {}
+
+    /// The next entry, or nothing at the end. Throws RecordingError.
+    std::optional<RecordedLine> next();
+    /// Line of the file that next() looked at last; 1 is the first.
+    std::size_t line() const { return line_; }
+
+  private:
+    bool read_text();
+    RecordedLine parse();
+    [[noreturn]] void fail(std::string_view message) const;
+
+    std::istream& in_;
+    std::string name_;
+    std::string text_;
+    std::size_t line_ = 0;
+};
+
+/// A whole recording, ordered by time (entries of the same time stay in the order of the file). Throws
+/// RecordingError, also when the file cannot be read.
+std::vector<RecordedLine> load_recording(const std::filesystem::path& file);
+std::vector<RecordedLine> load_recording(std::istream& in, std::string_view name);
+
+/// One entry as a line of a recording, "\n" included. `key` is "line" or "do". Pure ASCII, times with six
+/// decimals.
+std::string recording_line(printer::SimTime t, std::string_view from, std::string_view key,
+                           std::string_view bytes);
+std::string recording_line(const RecordedLine& line);
+
+}  // namespace fauxboard::host
