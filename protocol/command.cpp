@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <limits>
 
 #include "protocol/scan.h"
 
@@ -11,6 +10,10 @@ namespace fauxboard::protocol {
 namespace {
 
 constexpr double limit = 1e30;
+/// Powers of ten that a double holds exactly.
+constexpr std::array<double, 23> powers{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                        1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                                        1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
 /// A number as written: digits without the point, and where the point stands.
 struct Decimal {
@@ -59,9 +62,6 @@ Decimal read_decimal(std::string_view text) {
 
 /// `text` is an unsigned number, complete.
 double magnitude(std::string_view text) {
-    static constexpr std::array<double, 23> powers{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
-                                                   1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
-                                                   1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
     const Decimal decimal = read_decimal(text);
     if (decimal.mantissa == 0) return 0.0;
     if (decimal.significant <= 15 && decimal.exponent >= -22 && decimal.exponent <= 22) {
@@ -78,21 +78,65 @@ double magnitude(std::string_view text) {
     return std::min(limit, value);
 }
 
-/// Marks where each parameter's value starts; see Command for the rule.
-void find_parameters(Command& command) {
-    const std::string_view text =
-        command.text.substr(0, static_cast<std::size_t>(std::numeric_limits<std::int16_t>::max()));
+struct Reading {
+    double value = 0.0;
+    std::size_t length = 0;
+};
+
+/// Any number, by the general algorithm.
+Reading read_general(std::string_view text) {
+    text = text.substr(0, scan::number_length(text));
+    if (text.empty()) return {};
+    const std::size_t sign = text.front() == '-' || text.front() == '+' ? 1 : 0;
+    const double value = magnitude(text.substr(sign));
+    return {text.front() == '-' ? -value : value, text.size()};
+}
+
+/// The number that `text` begins with; its length is that of scan::number_length.
+Reading read(std::string_view text) {
+    // What stands on nearly every line: up to 15 digits, perhaps a point. All of it is exact but the one
+    // division.
+    const std::size_t sign = !text.empty() && (text[0] == '-' || text[0] == '+') ? 1 : 0;
+    std::uint64_t mantissa = 0;
+    std::size_t at = sign;
+    for (; at < text.size() && scan::is_digit(text[at]); ++at) {
+        mantissa = mantissa * 10 + static_cast<std::uint64_t>(text[at] - '0');
+    }
+    std::size_t digits = at - sign;
+    std::size_t decimals = 0;
+    if (at < text.size() && text[at] == '.') {
+        const std::size_t point = at++;
+        for (; at < text.size() && scan::is_digit(text[at]); ++at) {
+            mantissa = mantissa * 10 + static_cast<std::uint64_t>(text[at] - '0');
+        }
+        decimals = at - point - 1;
+        digits += decimals;
+    }
+    if (digits == 0) return {};
+    if (digits > 15 || (at < text.size() && text[at] == 'e')) return read_general(text);
+    double value = static_cast<double>(mantissa);
+    if (decimals != 0) value /= powers[decimals];
+    return {text[0] == '-' ? -value : value, at};
+}
+
+/// Reads each parameter; see Command for the rule.
+void read_parameters(Command& command) {
+    const std::string_view text = command.text;
     bool may_start = true;
     for (std::size_t i = 0; i < text.size();) {
         const char c = text[i++];
         if (scan::is_blank(c)) {
             may_start = true;
         } else if (may_start && scan::is_capital(c)) {
-            std::int16_t& offset = command.offsets[static_cast<std::size_t>(c - 'A')];
-            if (offset < 0) offset = static_cast<std::int16_t>(i);
-            const std::size_t length = scan::number_length(text.substr(i));
-            may_start = length != 0;
-            i += length;
+            const auto index = static_cast<std::size_t>(c - 'A');
+            const Reading number = read(text.substr(i));
+            may_start = number.length != 0;
+            if ((command.present >> index & 1U) == 0) {
+                command.present |= 1U << index;
+                const std::size_t blanks = may_start ? 0 : scan::blanks_at(text, i);
+                command.numbers[index] = blanks == 0 ? number.value : read(text.substr(i + blanks)).value;
+            }
+            i += number.length;
         } else {
             may_start = false;
         }
@@ -102,19 +146,7 @@ void find_parameters(Command& command) {
 }  // namespace
 
 double read_number(std::string_view text) {
-    text = text.substr(0, scan::number_length(text));
-    if (text.empty()) return 0.0;
-    const bool negative = text.front() == '-';
-    if (negative || text.front() == '+') text.remove_prefix(1);
-    const double value = magnitude(text);
-    return negative ? -value : value;
-}
-
-std::optional<double> Command::number_of(char parameter) const {
-    const std::int16_t offset = offset_of(parameter);
-    if (offset < 0) return std::nullopt;
-    const auto start = static_cast<std::size_t>(offset);
-    return read_number(text.substr(start + scan::blanks_at(text, start)));
+    return read(text).value;
 }
 
 std::string_view Command::value_of(std::string_view key) const {
@@ -127,18 +159,20 @@ std::string_view Command::value_of(std::string_view key) const {
     return {};
 }
 
-std::optional<Command> parse_command(std::string_view body) {
+bool parse_command(std::string_view body, Command& command) {
     body.remove_prefix(scan::blanks_at(body, 0));
-    if (body.empty()) return std::nullopt;
-    Command command;
+    if (body.empty()) return false;
+    command.letter = 0;
+    command.number = 0;
+    command.present = 0;
     const char first = body.front();
-    std::size_t end = 1;
     const bool coded = (first == 'G' || first == 'M' || first == 'T' || first == 'L') && body.size() > 1 &&
                        scan::is_digit(body[1]);
+    std::size_t end = 1;
     if (coded) {
         for (; end < body.size() && scan::is_digit(body[end]); ++end) {
             command.number = command.number * 10 + static_cast<std::uint32_t>(body[end] - '0');
-            if (command.number > 65535) return std::nullopt;
+            if (command.number > 65535) return false;
         }
         command.letter = first;
     } else {
@@ -149,8 +183,13 @@ std::optional<Command> parse_command(std::string_view body) {
     command.word = body.substr(0, end);
     command.text = body.substr(end);
     command.argument = scan::trim_right(command.text.substr(scan::blanks_at(command.text, 0)));
-    find_parameters(command);
-    return command;
+    read_parameters(command);
+    return true;
+}
+
+std::optional<Command> parse_command(std::string_view body) {
+    Command command;
+    return parse_command(body, command) ? std::optional<Command>(command) : std::nullopt;
 }
 
 }  // namespace fauxboard::protocol

@@ -23,37 +23,39 @@ struct Command {
     std::string_view argument;  ///< the text without blanks at either end
 
     /// Whether the parameter is there, with or without a number. False for anything but 'A'..'Z'.
-    bool has(char parameter) const { return offset_of(parameter) >= 0; }
+    bool has(char parameter) const {
+        return parameter >= 'A' && parameter <= 'Z' && (present >> (parameter - 'A') & 1U) != 0;
+    }
 
     /// The number of the parameter's first occurrence; nothing when it is absent. As the firmware's strtod
     /// reads it: blanks before the number are skipped, an empty or unreadable number is 0.0. Unlike strtod it
     /// takes no inf, nan or hexadecimal (0.0), and values beyond +-1e30 become +-1e30, so that the result is
     /// always finite.
-    std::optional<double> number_of(char parameter) const;
+    std::optional<double> number_of(char parameter) const {
+        if (!has(parameter)) return std::nullopt;
+        return numbers[static_cast<std::size_t>(parameter - 'A')];
+    }
 
     /// What stands behind `key` ("FW:") up to the next blank or the end; empty when the key is absent. The
     /// key counts at the start of the text, behind a blank and behind a semicolon only.
     std::string_view value_of(std::string_view key) const;
 
-    /// Where each parameter's value starts in `text`, -1 when it is absent. Filled by parse_command.
-    std::array<std::int16_t, 26> offsets = none_present();
+    // Filled by parse_command: many rules may ask for the same parameter.
+    std::uint32_t present = 0;       ///< bit 0 for A, bit 25 for Z
+    std::array<double, 26> numbers;  ///< of those present, what number_of() gives; of the others, anything
 
-  private:
-    static constexpr std::array<std::int16_t, 26> none_present() {
-        std::array<std::int16_t, 26> none{};
-        none.fill(-1);
-        return none;
-    }
-    std::int16_t offset_of(char parameter) const {
-        return parameter >= 'A' && parameter <= 'Z' ? offsets[static_cast<std::size_t>(parameter - 'A')]
-                                                    : std::int16_t{-1};
-    }
+    // Not the compiler's own: it would set all of `numbers`, which takes longer than reading a request.
+    Command() {}  // NOLINT(modernize-use-equals-default)
 };
 
 /// Takes a body (what unframe() returns) apart. A code is one of G M T L with digits right behind it; what
 /// follows the digits may be anything. All else is a word: the run up to the first blank, letter 0, so junk
 /// can be logged by it. Nothing for an empty or blank body and for a code over 65535.
 std::optional<Command> parse_command(std::string_view body);
+
+/// The same into a Command that stands there already, without copying one about: false where the other gives
+/// nothing.
+bool parse_command(std::string_view body, Command& command);
 
 /// Reads a decimal number as number_of() does, from the first byte of `text`; what follows the number is left
 /// alone.

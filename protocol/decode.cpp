@@ -1,5 +1,6 @@
 #include "protocol/decode.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -63,7 +64,10 @@ class FieldReader {
             field.closed = true;
             ++at_;
         }
-        if (index == 0 && field.number) selector_ = static_cast<std::int32_t>(*field.number);
+        if (index == 0 && field.number) {
+            // No `when` is that large: a number beyond selects nothing.
+            selector_ = static_cast<std::int32_t>(std::clamp(*field.number, -1e9, 1e9));
+        }
         return field;
     }
 

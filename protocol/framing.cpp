@@ -1,8 +1,6 @@
 #include "protocol/framing.h"
 
 #include <algorithm>
-#include <charconv>
-#include <limits>
 
 #include "protocol/scan.h"
 
@@ -12,6 +10,7 @@ namespace {
 
 constexpr std::string_view prefix = "N-0 ";
 constexpr std::string_view line_end = "\r\n";
+constexpr unsigned prefix_sum = 'N' ^ '-' ^ '0' ^ ' ';
 
 char* put(char* at, std::string_view text) {
     return std::copy(text.begin(), text.end(), at);
@@ -27,14 +26,15 @@ std::string_view strip_nuls(std::string_view line) {
     return line;
 }
 
+/// `digits`: a sign or none, and digits. Clamped to int.
 int number_from(std::string_view digits) {
-    if (!digits.empty() && digits.front() == '+') digits.remove_prefix(1);
-    int value = 0;
-    const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (result.ec == std::errc::result_out_of_range) {
-        return digits.front() == '-' ? std::numeric_limits<int>::min() : std::numeric_limits<int>::max();
+    constexpr std::int64_t beyond = std::int64_t{1} << 31U;
+    const bool negative = digits.starts_with('-');
+    std::int64_t value = 0;
+    for (const char digit : digits.substr(negative || digits.starts_with('+') ? 1 : 0)) {
+        value = std::min(value * 10 + (digit - '0'), beyond);
     }
-    return value;
+    return static_cast<int>(negative ? -value : std::min(value, beyond - 1));
 }
 
 /// What the policy says about a line whose bytes XOR to `expected`. `keeps_ours`: a bare M23, see unframe().
@@ -57,6 +57,34 @@ FrameFault judge(const scan::ChecksumToken& token, std::uint8_t expected, bool k
     return required ? FrameFault::checksum_malformed : FrameFault::none;
 }
 
+/// All of a frame but its body.
+struct Dress {
+    Dress(std::string_view body, FrameStyle style)
+        : head(frame_head(style)), starred(style == FrameStyle::framed || style == FrameStyle::star_only) {
+        if (style == FrameStyle::framed) {
+            sum = prefix_sum ^ xor_checksum(body);
+            digits = sum > 99 ? 3 : sum > 9 ? 2 : 1;
+        }
+        size = head + body.size() + (starred ? 1 : 0) + digits + line_end.size();
+    }
+
+    void put_around(char* out, std::size_t body_size) const {
+        if (head != 0) put(out, prefix);
+        char* at = out + head + body_size;
+        if (starred) *at++ = '*';
+        if (digits > 2) *at++ = static_cast<char>('0' + sum / 100);
+        if (digits > 1) *at++ = static_cast<char>('0' + sum / 10 % 10);
+        if (digits > 0) *at++ = static_cast<char>('0' + sum % 10);
+        put(at, line_end);
+    }
+
+    std::size_t head;
+    std::size_t digits = 0;
+    std::size_t size;
+    unsigned sum = 0;
+    bool starred;
+};
+
 }  // namespace
 
 std::uint8_t xor_checksum(std::string_view bytes) {
@@ -68,24 +96,23 @@ std::uint8_t xor_checksum(std::string_view bytes) {
     return sum;
 }
 
+std::size_t frame_head(FrameStyle style) {
+    return style == FrameStyle::bare ? 0 : prefix.size();
+}
+
+std::size_t dress_frame(std::span<char> out, std::size_t body_size, FrameStyle style) {
+    const Dress dress({out.data() + frame_head(style), body_size}, style);
+    if (dress.size > out.size()) return 0;
+    dress.put_around(out.data(), body_size);
+    return dress.size;
+}
+
 std::size_t write_frame(std::span<char> out, std::string_view body, FrameStyle style) {
-    std::array<char, 4> tail{'*'};  // star and up to three digits
-    std::size_t tail_size = 0;
-    if (style == FrameStyle::framed) {
-        const int sum = xor_checksum(prefix) ^ xor_checksum(body);
-        const auto end = std::to_chars(tail.data() + 1, tail.data() + tail.size(), sum).ptr;
-        tail_size = static_cast<std::size_t>(end - tail.data());
-    } else if (style == FrameStyle::star_only) {
-        tail_size = 1;
-    }
-    const std::string_view head = style == FrameStyle::bare ? std::string_view{} : prefix;
-    const std::size_t size = head.size() + body.size() + tail_size + line_end.size();
-    if (size > out.size()) return 0;
-    char* at = put(out.data(), head);
-    at = put(at, body);
-    at = put(at, {tail.data(), tail_size});
-    put(at, line_end);
-    return size;
+    const Dress dress(body, style);
+    if (dress.size > out.size()) return 0;
+    put(out.data() + dress.head, body);
+    dress.put_around(out.data(), body.size());
+    return dress.size;
 }
 
 std::string frame(std::string_view body, FrameStyle style) {
@@ -99,6 +126,10 @@ Unframed unframe(std::string_view line, ChecksumPolicy policy) {
     line.remove_prefix(scan::blanks_at(line, 0));
     Unframed result;
     std::size_t start = 0;
+    if (line.starts_with(prefix)) {  // what nearly every line has; the loop would say the same
+        result.prefixed = true;
+        start = prefix.size() + scan::blanks_at(line, prefix.size());
+    }
     while (const auto token = scan::prefix_at(line.substr(start))) {
         result.prefixed = true;
         result.line_number = number_from(token->number);

@@ -36,7 +36,13 @@ enum class FrameStyle : std::uint8_t {
 /// for.
 std::size_t write_frame(std::span<char> out, std::string_view body, FrameStyle style);
 
-/// The same as a string, for tests and tools.
+/// Bytes that a frame of this style has before its body.
+std::size_t frame_head(FrameStyle style);
+
+/// As write_frame(), for a body that stands in `out` already, frame_head() bytes from its start.
+std::size_t dress_frame(std::span<char> out, std::size_t body_size, FrameStyle style);
+
+/// What write_frame() writes, as a string, for tests and tools.
 std::string frame(std::string_view body, FrameStyle style = FrameStyle::framed);
 
 /// What a receiver does with checksums.
@@ -104,7 +110,8 @@ class LineSplitter {
                 return;
             }
             const char mark = bytes[run];
-            bytes.remove_prefix(run + 1);
+            const bool pair = mark == '\r' && run + 1 < bytes.size() && bytes[run + 1] == '\n';
+            bytes.remove_prefix(run + (pair ? 2 : 1));
             if (mark == '\0') {
                 ++nuls_;
                 keep(piece);

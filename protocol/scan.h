@@ -3,7 +3,6 @@
 // Private to this folder: the small scanners that framing, command and annotate share, so that what counts as
 // a blank, a prefix, a checksum or a number is written down once.
 
-#include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -88,10 +87,12 @@ inline ChecksumToken checksum_of(std::string_view line) {
     if (star == std::string_view::npos) return {StarTail::no_star, line.size(), 0};
     const std::string_view tail = trim_right(line.substr(star + 1));
     if (tail.empty()) return {StarTail::nothing, star, 0};
-    if (digits_at(tail, 0) != tail.size()) return {StarTail::other, star, 0};
-    unsigned value = 256;
-    if (tail.size() <= 3) std::from_chars(tail.data(), tail.data() + tail.size(), value);
-    if (value > 255) return {StarTail::bad_number, star, 0};
+    unsigned value = 0;
+    for (const char digit : tail) {
+        if (!is_digit(digit)) return {StarTail::other, star, 0};
+        value = value * 10 + static_cast<unsigned>(digit - '0');
+    }
+    if (tail.size() > 3 || value > 255) return {StarTail::bad_number, star, 0};
     return {StarTail::number, star, static_cast<std::uint8_t>(value)};
 }
 

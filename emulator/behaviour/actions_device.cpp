@@ -5,6 +5,7 @@
 
 #include "emulator/behaviour/action_rows.h"
 #include "emulator/behaviour/eeprom.h"
+#include "emulator/behaviour/fields.h"
 
 namespace fauxboard::behaviour::rows {
 namespace {
@@ -12,7 +13,8 @@ namespace {
 using enum ArgType;
 
 void leveling_adjust(ActionContext& c, Args a) {
-    c.printer.leveling.manual_z_mm += std::clamp(a[0].number, -100.0, 100.0);
+    set_field(c.printer, *find_field("leveling.manual_z"),
+              Value::of(c.printer.leveling.manual_z_mm + a[0].number));
     printer::MoveRequest request;
     request.values[2] = a[0].number;
     request.force_relative = true;
@@ -98,6 +100,16 @@ constexpr std::array table{
                "the SD card is taken out",
                {},
                [](ActionContext& c, Args) { c.printer.remove_card(0); }},
+    ActionInfo{"card.mount",
+               "",
+               "takes the card in the slot, if any, into use (M21)",
+               {},
+               [](ActionContext& c, Args) { c.printer.storage.mount(0); }},
+    ActionInfo{"card.release",
+               "",
+               "puts the card out of use; it stays in its slot (M22)",
+               {},
+               [](ActionContext& c, Args) { c.printer.storage.release(0); }},
     ActionInfo{"card.choose", "", "chooses SD card or U-disk (M2115)", disk_args, card_choose},
     ActionInfo{"card.enter", "",
                "enters a folder; one that is not there, or outside the card, changes nothing", folder_args,

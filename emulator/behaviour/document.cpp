@@ -44,7 +44,6 @@ class CountingIterator {
         return *this;
     }
     friend bool operator==(const CountingIterator& a, const CountingIterator& b) { return a.at_ == b.at_; }
-    friend bool operator!=(const CountingIterator& a, const CountingIterator& b) { return a.at_ != b.at_; }
 
   private:
     const char* at_;
@@ -181,7 +180,13 @@ void overlay(Document& base, const Document& over, Json& target, const Json& pat
         if (value.is_null()) {
             target.erase(key);
             forget_places(base, where);
-        } else if (value.is_object() && target.contains(key) && target[key].is_object()) {
+        } else if (value.is_object()) {
+            if (!target.contains(key) || !target[key].is_object()) {
+                forget_places(base, where);
+                target[key] = Json::object();
+                const auto place = over.places.find(where);
+                base.places[where] = {place->second.file + file_shift, place->second.line};
+            }
             overlay(base, over, target[key], value, where, file_shift);
         } else {
             forget_places(base, where);

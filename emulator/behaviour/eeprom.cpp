@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <charconv>
+#include <cstdint>
 #include <system_error>
+#include <vector>
 
 #include "emulator/behaviour/fields.h"
 #include "emulator/behaviour/number_text.h"
@@ -39,33 +42,81 @@ void append_value(std::string& out, const Field& field, const printer::Printer& 
     out += '\n';
 }
 
+const std::vector<const Field*>& stored_fields() {
+    static const std::vector<const Field*> stored = [] {
+        std::vector<const Field*> rows;
+        for (const Field& field : fields()) {
+            if (field.stored) {
+                rows.push_back(&field);
+            }
+        }
+        return rows;
+    }();
+    return stored;
+}
+
+/// What is noted of a field that was written: its number's bits, so that -0.0 is not 0.0.
+std::uint64_t note_of(const Field& field, const printer::Printer& printer) {
+    return std::bit_cast<std::uint64_t>(field.get(printer).number);
+}
+
+/// Whether the image says all of it already.
+bool written(printer::Printer& printer, std::string_view prefix) {
+    const std::vector<std::uint64_t>& notes = printer.eeprom_image.notes();
+    const std::vector<const Field*>& stored = stored_fields();
+    if (notes.empty()) {
+        return false;
+    }
+    for (std::size_t i = 0; i < stored.size(); ++i) {
+        if ((prefix.empty() || stored[i]->path.starts_with(prefix)) &&
+            (note_of(*stored[i], printer) != notes[i] || stored[i]->type == FieldType::text)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+void write(printer::Printer& printer, std::string_view prefix) {
+    printer::EepromImage& image = printer.eeprom_image;
+    const std::vector<const Field*>& stored = stored_fields();
+    std::string& draft = image.draft();
+    draft.clear();
+    each_line(image, [&](std::string_view path, std::string_view value) {
+        const Field* field = find_field(path);
+        if (field == nullptr || !field->stored || !path.starts_with(prefix)) {
+            draft.append(path).append(" ").append(value).append("\n");
+        }
+    });
+    // Of a part that was never written nothing can be noted.
+    std::vector<std::uint64_t>& notes = image.notes();
+    if (prefix.empty()) {
+        notes.resize(stored.size());
+    }
+    for (std::size_t i = 0; i < stored.size(); ++i) {
+        if (stored[i]->path.starts_with(prefix)) {
+            append_value(draft, *stored[i], printer);
+            if (!notes.empty()) {
+                notes[i] = note_of(*stored[i], printer);
+            }
+        }
+    }
+    image.take_draft();
+}
+
 }  // namespace
 
 std::string make_image(const printer::Printer& printer) {
     std::string image;
-    for (const Field& field : fields()) {
-        if (field.stored) {
-            append_value(image, field, printer);
-        }
+    for (const Field* field : stored_fields()) {
+        append_value(image, *field, printer);
     }
     return image;
 }
 
 bool save_fields(printer::Printer& printer, std::string_view prefix) {
-    std::string image;
-    image.reserve(printer.eeprom_image.size() + 64);
-    each_line(printer.eeprom_image, [&](std::string_view path, std::string_view value) {
-        const Field* field = find_field(path);
-        if (field == nullptr || !field->stored || !path.starts_with(prefix)) {
-            image.append(path).append(" ").append(value).append("\n");
-        }
-    });
-    for (const Field& field : fields()) {
-        if (field.stored && field.path.starts_with(prefix)) {
-            append_value(image, field, printer);
-        }
+    if (!written(printer, prefix)) {
+        write(printer, prefix);
     }
-    printer.eeprom_image = std::move(image);
     return printer.eeprom_store() == nullptr || printer.eeprom_store()->save(printer.eeprom_image);
 }
 

@@ -37,6 +37,6 @@ std::string_view nearest_field(std::string_view path);
 
 enum class SetResult : std::uint8_t { done, clamped, refused };
 /// Puts `value` into the field, within its bounds. Refused: read only, wrong kind, or not a finite number.
-SetResult set_field(printer::Printer& printer, const Field& field, Value value);
+SetResult set_field(printer::Printer& printer, const Field& field, const Value& value);
 
 }  // namespace fauxboard::behaviour

@@ -118,7 +118,7 @@ constexpr std::array table{
         "stepper.error_limit", integer, "", 0, 65535, "largest error allowed (C9)",
         [](auto& p) -> auto& { return driver(p).error_limit; }),
 
-    plain("power_loss.saved_job", boolean, "", 0, 1, "a job cut off by a power loss is kept",
+    stored("power_loss.saved_job", boolean, "", 0, 1, "a job cut off by a power loss is kept",
           FAUXBOARD_PLACE(power_loss.saved_job)),
 
     shown("identity.device_name", text, "", "DN of L9",

@@ -54,7 +54,8 @@ constexpr std::array table{
     shown("heaters.t2.printed", number, "C", "what the input T2 shows, to which no sensor is wired",
           printed<ThermalChannel::t2>),
     shown("heaters.moved", boolean, "",
-          "a measurement found a printed temperature 1.0 or more away from the last one reported",
+          "the measurement before the last one found a printed temperature 1.0 or more away from the "
+          "one reported last",
           [](const Printer& p) { return p.thermal.moved_since_report(); }),
     shown("heating.waiting", boolean, "", "the board waits for a temperature (M109, M190)",
           [](const Printer& p) { return p.wait.active(); }),
@@ -92,7 +93,7 @@ constexpr std::array table{
     handled(
         "speed.percent", integer, "%", 10, 999, "print speed (M220)",
         [](const Printer& p) { return p.motion.speed_percent(); },
-        [](Printer& p, const Value& v) { p.motion.set_speed_percent(static_cast<int>(v.number)); }),
+        [](Printer& p, const Value& v) { p.motion.set_speed_percent(static_cast<int>(std::lround(v.number))); }),
 
     plain("fans.part", integer, "%", 0, 100, "part cooling fan", FAUXBOARD_PLACE(fans.part_percent)),
     plain("fans.second", integer, "%", 0, 100, "second fan (M106 P2)", FAUXBOARD_PLACE(fans.second_percent)),

@@ -23,6 +23,11 @@ std::size_t copy_text(std::string_view text, std::span<char> out, bool lower) {
     return size;
 }
 
+/// Without its decimals, as a cast to int does it; -0.5 becomes 0, not -0. Bounds as write_fixed() has them.
+double cut_off(double value) {
+    return static_cast<double>(static_cast<long long>(std::clamp(value, -1e15, 1e15)));
+}
+
 bool needs_format(const Operand& operand) {
     return operand.kind == Operand::Kind::variable || operand.kind == Operand::Kind::parameter ||
            (operand.kind == Operand::Kind::field && operand.field->type == FieldType::number);
@@ -133,10 +138,8 @@ std::size_t FrameTemplate::render(const Scope& scope, std::span<char> out, bool&
             size += n;
             continue;
         }
-        const bool whole = part.style == Style::whole;
-        const double cut_off = value.number < 0 ? -static_cast<double>(static_cast<long long>(-value.number))
-                                                : static_cast<double>(static_cast<long long>(value.number));
-        const std::size_t n = write_fixed(room, whole ? cut_off + 0.0 : value.number, part.decimals);
+        const double number = part.style == Style::whole ? cut_off(value.number) : value.number;
+        const std::size_t n = write_fixed(room, number, part.decimals);
         cut = cut || n == 0;
         size += n;
     }

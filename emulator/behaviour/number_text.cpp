@@ -23,25 +23,22 @@ std::size_t write_fixed(std::span<char> out, double value, int decimals) {
     std::array<char, 40> text;
     char* end = text.data() + text.size();
     char* at = end;
-    const double whole = std::floor(scaled);
-    const double rest = scaled - whole;
-    if (scaled < 1e9 && std::fabs(rest - 0.5) > 1e-6) {
-        auto digits = static_cast<std::uint64_t>(whole) + (rest > 0.5 ? 1U : 0U);
-        for (int i = 0; i < decimals || i == 0 || digits != 0; ++i) {
-            if (i == decimals && decimals != 0) {
-                *--at = '.';
-                if (digits == 0) {
-                    *--at = '0';
-                    break;
-                }
-            }
+    const bool small = scaled < 1e9;
+    const auto whole = static_cast<std::int64_t>(small ? scaled : 0.0);
+    const double rest = scaled - static_cast<double>(whole);
+    if (small && std::fabs(rest - 0.5) > 1e-6) {
+        auto digits = static_cast<std::uint32_t>(whole) + (rest > 0.5 ? 1U : 0U);
+        for (int i = 0; i < decimals; ++i) {
             *--at = static_cast<char>('0' + digits % 10);
             digits /= 10;
         }
-        if (decimals != 0 && end - at == decimals) {
+        if (decimals != 0) {
             *--at = '.';
-            *--at = '0';
         }
+        do {
+            *--at = static_cast<char>('0' + digits % 10);
+            digits /= 10;
+        } while (digits != 0);
         if (std::signbit(value)) {
             *--at = '-';
         }

@@ -94,7 +94,7 @@ Operand Operand::literal(std::string t) {
     return operand;
 }
 
-Value Operand::evaluate(const Scope& scope) const {
+Value Operand::evaluate_other(const Scope& scope) const {
     switch (kind) {
         case Kind::none:
             return {};

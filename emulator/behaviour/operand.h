@@ -18,7 +18,7 @@ namespace fauxboard::behaviour {
 /// What an expression of a profile can see while it is evaluated.
 struct Scope {
     const printer::Printer& printer;
-    std::span<const double> variables;                 ///< the profile's own, one set per board
+    std::span<const double> variables;           ///< the profile's own, one set per board
     const protocol::Command* command = nullptr;  ///< the request; null in events and on the schedule
     const printer::CardEntry* entry = nullptr;   ///< inside `for_each`
     std::size_t index = 0;
@@ -66,9 +66,24 @@ struct Operand {
     static Operand literal(std::string t);
 
     /// Nothing when a parameter is not on the line.
-    Value evaluate(const Scope& scope) const;
+    Value evaluate(const Scope& scope) const {
+        // What rules and frames are mostly made of, without a call.
+        if (kind == Kind::field) {
+            return field->get(scope.printer);
+        }
+        if (kind == Kind::number) {
+            return Value::of(number);
+        }
+        if (kind == Kind::parameter && scope.command != nullptr && scope.command->has(letter)) {
+            return Value::of(*scope.command->number_of(letter));
+        }
+        return evaluate_other(scope);
+    }
     /// Whether the value is a text; parameters and fields say by their kind.
     bool is_text() const;
+
+  private:
+    Value evaluate_other(const Scope& scope) const;
 };
 
 /// Compiles what stands between braces: a field path, `var.NAME`, a parameter. Throws ExpressionError.

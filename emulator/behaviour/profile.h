@@ -7,7 +7,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 #include "emulator/behaviour/document.h"
@@ -61,6 +60,43 @@ struct Schedule {
     std::vector<Condition> frozen_while;
 };
 
+/// Rules by code: what every request is looked up in.
+class CodeTable {
+  public:
+    /// The rules of a code, none at first. References last until the next new code.
+    std::vector<Rule>& operator[](std::uint32_t key);
+    /// Null when the code has none.
+    const std::vector<Rule>* find(std::uint32_t key) const {
+        if (slots_.empty()) {
+            return nullptr;
+        }
+        for (std::size_t at = place(key);; at = (at + 1) & (slots_.size() - 1)) {
+            const std::uint32_t index = slots_[at];
+            if (index == no_entry) {
+                return nullptr;
+            }
+            if (entries_[index].key == key) {
+                return &entries_[index].rules;
+            }
+        }
+    }
+
+  private:
+    struct Entry {
+        std::uint32_t key;
+        std::vector<Rule> rules;
+    };
+    static constexpr std::uint32_t no_entry = ~std::uint32_t{0};
+
+    /// Where to look first: the upper bits of a product spread codes that lie close together.
+    std::size_t place(std::uint32_t key) const { return (key * 0x9E3779B1U >> 16U) & (slots_.size() - 1); }
+
+    void enter(std::size_t index);
+
+    std::vector<Entry> entries_;
+    std::vector<std::uint32_t> slots_;  ///< indices of entries; a power of two of them, at least half empty
+};
+
 /// A profile, checked and compiled: everything a board of this kind says and does. Immutable, shared by all
 /// its boards.
 class Profile {
@@ -87,7 +123,7 @@ class Profile {
     }
 
     struct RequestTable {
-        std::unordered_map<std::uint32_t, std::vector<Rule>> codes;  ///< by code_key
+        CodeTable codes;  ///< by code_key
         std::map<std::string, std::vector<Rule>, std::less<>> words;
     };
     RequestTable screen_;

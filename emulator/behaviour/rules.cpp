@@ -30,11 +30,6 @@ bool Condition::holds(const Scope& scope) const {
     return false;
 }
 
-bool all_hold(const std::vector<Condition>& conditions, const Scope& scope) {
-    return std::all_of(conditions.begin(), conditions.end(),
-                       [&](const Condition& c) { return c.holds(scope); });
-}
-
 namespace {
 
 void assign(const ActionCall& call, const Scope& scope, const std::vector<VariableInfo>& variables,
@@ -68,14 +63,11 @@ void assign(const ActionCall& call, const Scope& scope, const std::vector<Variab
 
 }  // namespace
 
-void run_action(const ActionCall& call, const Scope& scope, const std::vector<VariableInfo>& variables,
-                ActionContext& context) {
-    if (call.info->run == nullptr) {
-        assign(call, scope, variables, context);
-        return;
-    }
-    std::array<Value, max_action_args> values{};
-    for (std::size_t i = 0; i < call.args.size(); ++i) {
+namespace {
+
+/// Evaluates the arguments into `values` and runs the action with them.
+void run_with(std::span<Value> values, const ActionCall& call, const Scope& scope, ActionContext& context) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
         values[i] = call.args[i].evaluate(scope);
         if (values[i].none() && call.info->args[i].required) {
             context.notices.notice(Level::debug, std::string(call.info->name) + ": the line does not say " +
@@ -83,7 +75,25 @@ void run_action(const ActionCall& call, const Scope& scope, const std::vector<Va
             return;
         }
     }
-    call.info->run(context, std::span<const Value>(values.data(), call.args.size()));
+    call.info->run(context, values);
+}
+
+}  // namespace
+
+void run_action(const ActionCall& call, const Scope& scope, const std::vector<VariableInfo>& variables,
+                ActionContext& context) {
+    if (call.info->run == nullptr) {
+        assign(call, scope, variables, context);
+        return;
+    }
+    const std::size_t count = call.args.size();
+    std::array<Value, 2> few;  // clearing room for the most there can be would cost more than the action
+    if (count <= few.size()) {
+        run_with({few.data(), count}, call, scope, context);
+    } else {
+        std::array<Value, max_action_args> many;
+        run_with({many.data(), count}, call, scope, context);
+    }
 }
 
 }  // namespace fauxboard::behaviour

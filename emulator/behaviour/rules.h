@@ -21,7 +21,15 @@ struct Condition {
     bool holds(const Scope& scope) const;
 };
 
-bool all_hold(const std::vector<Condition>& conditions, const Scope& scope);
+inline bool all_hold(const std::vector<Condition>& conditions, const Scope& scope) {
+    // A plain loop: std::all_of is unrolled for lists much longer than these.
+    for (const Condition& condition : conditions) {
+        if (!condition.holds(scope)) {
+            return false;
+        }
+    }
+    return true;
+}
 
 /// One entry of a `do`.
 struct ActionCall {

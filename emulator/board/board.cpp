@@ -28,6 +28,12 @@ constexpr std::size_t told_limit = 256;
 /// Events that one step may work off: a profile whose events raise each other must come to an end.
 constexpr int event_limit = 256;
 
+/// A code ("M2134"), not a word ("log"): words are no commands to the board and take no tick. The recorded
+/// one answered an M2134 that came 0.8 ms behind a log line as fast as one that came alone.
+bool is_code(std::string_view body) {
+    return body.size() > 1 && body[1] >= '0' && body[1] <= '9';
+}
+
 }  // namespace
 
 Board::Board(std::shared_ptr<const behaviour::Profile> profile, printer::Services services, Options options)
@@ -99,7 +105,7 @@ void Board::reload(std::shared_ptr<const behaviour::Profile> profile) {
     }
     profile_ = std::move(profile);
     variables_ = std::move(variables);
-    wheel_.reload(*profile_);
+    wheel_.reload(*profile_, time_);
     told_.clear();
 }
 
@@ -119,7 +125,8 @@ void Board::take_line(Channel channel, std::string_view line) {
         channel == Channel::screen ? profile_->line.checksum : protocol::ChecksumPolicy::if_present;
     const protocol::Unframed unframed = protocol::unframe(line, policy);
     Verdict verdict = Verdict::accepted;
-    const bool at_once = channel == Channel::host || (!options_.pacing && output_.size() < output_limit);
+    const bool waits = options_.pacing ? is_code(unframed.body) : output_.size() >= output_limit;
+    const bool at_once = channel == Channel::host || !waits;
     if (unframed.fault != protocol::FrameFault::none) {
         ++counters_.bad_frames;
         verdict = Verdict::bad_frame;
@@ -138,16 +145,16 @@ void Board::take_line(Channel channel, std::string_view line) {
 }
 
 void Board::execute(Channel channel, std::string_view body) {
-    const auto command = protocol::parse_command(body);
-    if (!command) {
+    protocol::Command command;
+    if (!protocol::parse_command(body, command)) {
         return;  // a frame around nothing
     }
     const std::vector<Rule>* rules =
-        channel == Channel::screen ? profile_->screen_rules(*command) : profile_->host_rules(*command);
+        channel == Channel::screen ? profile_->screen_rules(command) : profile_->host_rules(command);
     if (rules == nullptr) {
         ++counters_.unknown_codes;
-        report_unknown(command->word, "is not in the profile");
-    } else if (!run_rules(*rules, &*command)) {
+        report_unknown(command.word, "is not in the profile");
+    } else if (!run_rules(*rules, &command)) {
         ++counters_.unmatched;
         report_unknown(body, "has parameters that no rule of the profile is for");
     }
@@ -206,7 +213,10 @@ void Board::run_events() {
         if (!event) {
             return;
         }
-        run_rules(profile_->events[static_cast<std::size_t>(*event)], nullptr);
+        const std::vector<Rule>& rules = profile_->events[static_cast<std::size_t>(*event)];
+        if (!rules.empty()) {
+            run_rules(rules, nullptr);
+        }
     }
     machine_.events.clear();
     notice(Level::error, "the profile's events raise each other without end; the rest was dropped");
@@ -261,12 +271,16 @@ void Board::send(const Send& entry, const Scope& here) {
 
 std::size_t Board::compose_line(const Frame& frame, const behaviour::FrameTemplate& text, const Scope& here,
                                 std::size_t at, std::size_t end) {
-    std::array<char, protocol::max_line_bytes> body;
+    const std::span<char> room = std::span<char>(scratch_).subspan(at, end - at);
+    const std::size_t head = std::min(protocol::frame_head(frame.style), room.size());
+    const std::size_t most = std::min(room.size() - head, protocol::max_line_bytes);
     bool cut = false;
-    const std::size_t size = text.render(here, body, cut);
+    const std::size_t size = text.render(here, room.subspan(head, most), cut);
+    if (cut && most < protocol::max_line_bytes) {
+        return at;  // no room for the line: it is left out
+    }
     counters_.lines_cut += cut ? 1 : 0;
-    return at + protocol::write_frame(std::span<char>(scratch_).subspan(at, end - at), {body.data(), size},
-                                      frame.style);
+    return at + protocol::dress_frame(room, size, frame.style);
 }
 
 std::size_t Board::compose(const Frame& frame, const Scope& here) {
@@ -315,6 +329,11 @@ SimTime Board::next_due() const {
     const SimTime wheel =
         wheel_.next_slot() <= time_ ? wheel_.next_slot() : wheel_.next_due(scope(), machine_.restless());
     return std::min({machine_.next_event(), next_tick(), wheel});
+}
+
+/// A time before which nothing is due, found without asking which of the wheel's slots may send.
+SimTime Board::nothing_before() const {
+    return std::min({machine_.next_event(), next_tick(), wheel_.next_slot()});
 }
 
 void Board::run_slots() {
@@ -368,7 +387,12 @@ void Board::step(SimTime due) {
 }
 
 void Board::catch_up(SimTime now) {
-    for (SimTime due = next_due(); due < now; due = next_due()) {
+    // With so much output untaken the slots stand still; they go on, late, when it has been taken.
+    while (nothing_before() < now && output_.size() < output_limit) {
+        const SimTime due = next_due();
+        if (due >= now) {
+            break;
+        }
         step(due);
     }
     time_ = std::max(time_, now);

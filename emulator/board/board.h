@@ -129,6 +129,7 @@ class Board final : private behaviour::NoticeSink {
     void run_tick();
     SimTime next_tick() const;
     SimTime next_due() const;
+    SimTime nothing_before() const;
     void report_unknown(std::string_view word, std::string_view why);
     behaviour::Scope scope(const protocol::Command* command = nullptr) const;
 

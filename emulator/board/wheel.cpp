@@ -9,7 +9,7 @@ using behaviour::Scope;
 using behaviour::Slot;
 using printer::never;
 
-void Wheel::reload(const behaviour::Profile& profile) {
+void Wheel::reload(const behaviour::Profile& profile, SimTime now) {
     profile_ = &profile;
     slots_.resize(profile.schedule.slots.size());
     watch_from_.clear();
@@ -20,15 +20,27 @@ void Wheel::reload(const behaviour::Profile& profile) {
     }
     // "Never sent" differs from every value.
     watched_.assign(from, std::numeric_limits<double>::quiet_NaN());
+    const std::vector<Slot>& slots = profile.schedule.slots;
+    for (std::size_t i = 0; i < slots.size(); ++i) {
+        std::size_t ahead = 0;
+        while (ahead < slots.size() && !slots[(i + ahead) % slots.size()].frame) {
+            ++ahead;
+        }
+        slots_[i].to_frame = ahead == slots.size() ? no_frame : ahead;
+    }
     index_ = slots_.empty() ? 0 : index_ % slots_.size();
     if (slots_.empty()) {
         next_ = never;
+        frozen_ = false;
+    } else if (next_ == never && !frozen_) {
+        next_ = now + profile.schedule.slot;
     }
 }
 
 void Wheel::power_on(SimTime now) {
     for (std::size_t i = 0; i < slots_.size(); ++i) {
-        slots_[i] = {profile_->schedule.slots[i].first_round, 0};
+        slots_[i].base = profile_->schedule.slots[i].first_round;
+        slots_[i].last_sent = 0;
     }
     std::fill(watched_.begin(), watched_.end(), std::numeric_limits<double>::quiet_NaN());
     index_ = 0;
@@ -45,7 +57,7 @@ bool Wheel::changed(const std::vector<std::size_t>& which, std::size_t frame,
     });
 }
 
-void Wheel::sent(std::size_t frame, const printer::Printer& machine) {
+void Wheel::remember(std::size_t frame, const printer::Printer& machine) {
     const auto& fields = profile_->frames[frame].watched;
     for (std::size_t i = 0; i < fields.size(); ++i) {
         watched_[watch_from_[frame] + i] = fields[i]->get(machine).number;
@@ -103,30 +115,32 @@ SimTime Wheel::next_due(const Scope& scope, bool volatile_state) const {
     if (next_ == never) {
         return never;
     }
-    const behaviour::Schedule& schedule = profile_->schedule;
+    if (volatile_state) {
+        const std::size_t ahead = slots_[index_].to_frame;
+        return ahead == no_frame ? never : next_ + static_cast<SimTime::rep>(ahead) * profile_->schedule.slot;
+    }
+    const std::vector<Slot>& slots = profile_->schedule.slots;
     const std::size_t n = slots_.size();
     SimTime best = never;
-    for (std::size_t i = 0; i < n; ++i) {
-        const Slot& slot = schedule.slots[i];
+    SimTime at = next_;
+    for (std::size_t ahead = 0, i = index_; ahead < n && at < best; ++ahead, at += profile_->schedule.slot) {
+        const Slot& slot = slots[i];
+        const std::size_t index = i;
+        const std::uint64_t round = round_ + (index < index_ ? 1 : 0);
+        i = i + 1 == n ? 0 : i + 1;
         if (!slot.frame) {
             continue;
         }
-        const bool passed = i < index_;
-        const std::size_t ahead = passed ? i + n - index_ : i - index_;
-        const std::uint64_t round = round_ + (passed ? 1 : 0);
-        SimTime at = next_ + static_cast<SimTime::rep>(ahead) * schedule.slot;
-        const bool may_now = volatile_state || (!slot.or_changed.empty() &&
-                                                changed(slot.or_changed, *slot.frame, scope.printer));
-        if (!may_now) {
-            if (!slot.always && !conditions_hold(i, scope)) {
-                continue;
-            }
-            const std::uint64_t base = slots_[i].base;
-            const std::uint64_t every = slot.every_rounds;
-            const std::uint64_t wait = round < base ? base - round : (every - (round - base) % every) % every;
-            at += static_cast<SimTime::rep>(wait * n) * schedule.slot;
+        if (!slot.or_changed.empty() && changed(slot.or_changed, *slot.frame, scope.printer)) {
+            return std::min(best, at);
         }
-        best = std::min(best, at);
+        if (!slot.always && !conditions_hold(index, scope)) {
+            continue;
+        }
+        const std::uint64_t base = slots_[index].base;
+        const std::uint64_t every = slot.every_rounds;
+        const std::uint64_t wait = round < base ? base - round : (every - (round - base) % every) % every;
+        best = std::min(best, at + static_cast<SimTime::rep>(wait * n) * profile_->schedule.slot);
     }
     return best;
 }

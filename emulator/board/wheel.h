@@ -17,10 +17,15 @@ using printer::SimTime;
 /// It needs no turning while nothing can come of it: next_due() looks ahead to the first slot that may send.
 class Wheel {
   public:
-    explicit Wheel(const behaviour::Profile& profile) { reload(profile); }
+    /// Stands still until power_on().
+    explicit Wheel(const behaviour::Profile& profile) {
+        reload(profile, SimTime{0});
+        next_ = printer::never;
+    }
 
-    /// Another profile's slots and watched values; the wheel's place is kept as far as it fits.
-    void reload(const behaviour::Profile& profile);
+    /// Another profile's slots and watched values; the wheel's place is kept as far as it fits. A wheel that
+    /// had no slots starts one slot's time from `now`.
+    void reload(const behaviour::Profile& profile, SimTime now);
     void power_on(SimTime now);
 
     /// The time of the slot that comes next; `never` while frozen or without slots.
@@ -34,7 +39,11 @@ class Wheel {
     const behaviour::Slot* turn(const behaviour::Scope& scope);
 
     /// The frame went out, for whatever reason: its watched values are those of now.
-    void sent(std::size_t frame, const printer::Printer& machine);
+    void sent(std::size_t frame, const printer::Printer& machine) {
+        if (!profile_->frames[frame].watched.empty()) {
+            remember(frame, machine);
+        }
+    }
 
     /// Stands still for whole rounds, or for some time.
     void lose_rounds(int rounds);
@@ -45,11 +54,14 @@ class Wheel {
     void thaw(SimTime now);
 
   private:
+    static constexpr std::size_t no_frame = ~std::size_t{0};
     struct SlotState {
-        std::uint64_t base = 0;       ///< round from which `every_rounds` counts
-        std::uint64_t last_sent = 0;  ///< round + 1 in which it last sent, 0 never
+        std::uint64_t base = 0;           ///< round from which `every_rounds` counts
+        std::uint64_t last_sent = 0;      ///< round + 1 in which it last sent, 0 never
+        std::size_t to_frame = no_frame;  ///< slots from here to the first that has a frame: 0 this one
     };
 
+    void remember(std::size_t frame, const printer::Printer& machine);
     bool changed(const std::vector<std::size_t>& which, std::size_t frame,
                  const printer::Printer& machine) const;
     bool conditions_hold(std::size_t index, const behaviour::Scope& scope) const;

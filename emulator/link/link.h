@@ -36,6 +36,8 @@ class LinkListener {
     /// `why` is a sentence for the log without a full stop: "/dev/ttyUSB0 vanished (Input/output error);
     /// ...".
     virtual void on_state(LinkState state, std::string_view why) = 0;
+    /// All that write() had to keep (see Link::pending) has been handed to the system.
+    virtual void on_drained() {}
 };
 
 /// Counted from the link's creation. A message is one call of write(); every message's bytes end up either in
@@ -69,6 +71,13 @@ class Link {
     /// pressure, so what cannot be sent is lost, as a whole message, and counted. A message longer than
     /// `pending_limit` is always lost.
     virtual void write(std::string_view message) = 0;
+
+    /// Bytes of messages that the system has not taken yet.
+    virtual std::size_t pending() const { return 0; }
+    /// Stops reading, or goes on; holds nothing after open(). What the other end sends meanwhile waits in the
+    /// system: that holds up a program, and lets a serial port overrun. For whoever passes bytes on to a line
+    /// that takes them more slowly. The end of the stream is found when reading goes on.
+    virtual void hold(bool /*held*/) {}
 
     /// Changes at once; the listener hears of it on the loop's next turn.
     virtual LinkState state() const = 0;

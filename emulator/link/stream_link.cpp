@@ -35,6 +35,7 @@ void StreamLink::open(LinkListener& listener) {
     session_ = std::make_shared<char>();
     listener_ = &listener;
     was_up_ = false;
+    held_ = false;
     try {
         open_device();
     } catch (...) {
@@ -75,19 +76,30 @@ void StreamLink::detach() {
     ++attach_count_;
     broken_ = false;
     writable_awaited_ = false;
+    readable_awaited_ = false;
     if (descriptor_.is_open()) descriptor_.release();
 }
 
 // ---- reading ----
 
 void StreamLink::wait_readable() {
+    if (held_ || readable_awaited_) return;
+    readable_awaited_ = true;
     descriptor_.async_wait(asio::posix::stream_descriptor::wait_read,
                            guarded([this, id = attach_count_](const asio::error_code& error) {
-                               if (!error && id == attach_count_) on_readable();
+                               if (error || id != attach_count_) return;
+                               readable_awaited_ = false;
+                               on_readable();
                            }));
 }
 
+void StreamLink::hold(bool held) {
+    held_ = held;
+    if (!held && session_ && attached()) wait_readable();
+}
+
 void StreamLink::on_readable() {
+    if (held_) return;
     switch (take()) {
         case Took::bytes:
         case Took::nothing:
@@ -171,6 +183,7 @@ void StreamLink::wait_writable() {
                                if (error || id != attach_count_) return;
                                writable_awaited_ = false;
                                flush_pending();
+                               if (pending_.empty()) listener_->on_drained();
                            }));
 }
 

@@ -27,6 +27,8 @@ class StreamLink : public Link {
     void open(LinkListener& listener) final;
     void close() final;
     void write(std::string_view message) final;
+    std::size_t pending() const final { return pending_.size(); }
+    void hold(bool held) final;
     LinkState state() const final { return state_; }
     const LinkStats& stats() const final { return stats_; }
 
@@ -96,6 +98,8 @@ class StreamLink : public Link {
     bool was_up_ = false;
     bool broken_ = false;  ///< a write failed; on_end() is on its way
     bool writable_awaited_ = false;
+    bool readable_awaited_ = false;
+    bool held_ = false;  ///< see hold()
     LinkStats stats_;
     PendingBytes pending_;
     std::string end_reason_;

@@ -239,7 +239,12 @@ int Printer::disk_code() const {
 }
 
 const std::vector<CardEntry>& Printer::listing() {
-    storage.listing(listing_, config_->card.max_listed);
+    const Volume* const fixed = storage.fixed_volume();
+    if (fixed == nullptr || fixed != listed_ || storage.folder() != listed_folder_) {
+        storage.listing(listing_, config_->card.max_listed);
+        listed_ = fixed;
+        listed_folder_ = storage.folder();
+    }
     return listing_;
 }
 

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "emulator/printer/eeprom_image.h"
 #include "emulator/printer/events.h"
 #include "emulator/printer/feeder.h"
 #include "emulator/printer/heating_wait.h"
@@ -110,7 +111,7 @@ class Printer {
     EventQueue events;
 
     /// What the EEPROM holds, and what it is written to.
-    std::string eeprom_image;
+    EepromImage eeprom_image;
     /// The same for a machine fresh from the factory (M502).
     std::string factory_image;
     EepromStore* eeprom_store() const { return services_.eeprom; }
@@ -127,6 +128,8 @@ class Printer {
     Services services_;
     std::optional<BuiltInVolume> built_in_;
     std::vector<CardEntry> listing_;
+    const Volume* listed_ = nullptr;  ///< what listing_ shows, and which folder of it, if it cannot change
+    std::string listed_folder_;
     SimTime now_{0};
     SimTime card_check_ = never;  ///< when the board finds out that there is no card
     SimTime stall_{0};

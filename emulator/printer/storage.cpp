@@ -65,6 +65,18 @@ void Storage::attach(int disk, Volume* volume) {
     }
 }
 
+void Storage::mount(int disk) {
+    if (states_[index(disk)] == DiskState::removed) {
+        attach(disk, volumes_[index(disk)]);
+    }
+}
+
+void Storage::release(int disk) {
+    if (states_[index(disk)] == DiskState::ok) {
+        states_[index(disk)] = DiskState::removed;
+    }
+}
+
 bool Storage::choose(int disk) {
     if (disk != 0 && disk != 1) {
         return false;

@@ -27,6 +27,8 @@ class Volume {
     virtual bool list(std::string_view folder, std::vector<CardEntry>& out) const = 0;
     /// What stands at `path`, and its size if it is a file.
     virtual Kind look(std::string_view path, std::uint64_t& bytes) const = 0;
+    /// Whether nothing on it ever changes, so that a listing may be kept.
+    virtual bool fixed() const { return false; }
 };
 
 /// The small card that a profile carries within itself.
@@ -35,6 +37,7 @@ class BuiltInVolume final : public Volume {
     explicit BuiltInVolume(const std::vector<BuiltInEntry>& root) : root_(root) {}
     bool list(std::string_view folder, std::vector<CardEntry>& out) const override;
     Kind look(std::string_view path, std::uint64_t& bytes) const override;
+    bool fixed() const override { return true; }
 
   private:
     const BuiltInEntry* find(std::string_view path) const;
@@ -50,6 +53,8 @@ class Storage {
 
     void attach(int disk, Volume* volume);  ///< nullptr takes it out
     void set_state(int disk, DiskState state) { states_[index(disk)] = state; }
+    void mount(int disk);    ///< M21: the disk in the slot, if any, comes into use
+    void release(int disk);  ///< M22: it goes out of use, and stays in its slot
     DiskState state(int disk) const { return states_[index(disk)]; }
     bool usable(int disk) const {
         return states_[index(disk)] == DiskState::ok && volumes_[index(disk)] != nullptr;
@@ -69,6 +74,11 @@ class Storage {
     /// What the screen shows of the folder: the way back first unless at the root, at most `limit` entries in
     /// all.
     void listing(std::vector<CardEntry>& out, unsigned limit) const;
+
+    /// The disk that listing() would show; nullptr when there is none to show, or when it may change.
+    const Volume* fixed_volume() const {
+        return usable(chosen_) && volumes_[index(chosen_)]->fixed() ? volumes_[index(chosen_)] : nullptr;
+    }
 
     struct Found {
         Volume::Kind kind = Volume::Kind::missing;

@@ -100,7 +100,9 @@ void Thermal::measure() {
         ++since_power_on_;
         return;
     }
-    bool at_rest = since_power_on_ > config_->warm_up_measurements;  // the first reading may be off
+    watch();
+    const bool first = since_power_on_ == config_->warm_up_measurements;
+    bool at_rest = !first;  // the first reading may be off
     for (Heater& h : heaters_) {
         h.plant.step(share_of_full(h), h.commanded);
         at_rest &= h.plant.settle(rest_within_k);
@@ -110,7 +112,9 @@ void Thermal::measure() {
     }
     read_input(ThermalChannel::t1, config_->t1);
     read_input(ThermalChannel::t2, config_->t2);
-    watch();
+    if (first || at_rest) {
+        watch();
+    }
     at_rest_ = at_rest;
     ++index_;
     ++since_power_on_;
@@ -146,8 +150,9 @@ void Thermal::print(ThermalChannel channel, double read_c) {
 }
 
 void Thermal::watch() {
+    moved_ = false;
     for (std::size_t i = 0; i < printed_.size(); ++i) {
-        if (std::fabs(printed_[i] - reported_[i]) >= report_change_c) moved_ = true;
+        moved_ = moved_ || std::fabs(printed_[i] - reported_[i]) >= report_change_c;
     }
 }
 

@@ -1,0 +1,8 @@
+// The bodies of Asio's functions, compiled once for the whole program (ASIO_SEPARATE_COMPILATION) instead of
+// in every file that includes Asio.
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wnull-dereference"
+#endif
+
+#include <asio/impl/src.hpp>
