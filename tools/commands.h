@@ -19,6 +19,8 @@ enum class ExitCode : int {
 void add_run(CLI::App& app, ExitCode& exit);
 void add_send(CLI::App& app, ExitCode& exit);
 void add_replay(CLI::App& app, ExitCode& exit);
+void add_tap(CLI::App& app, ExitCode& exit);
+void add_decode(CLI::App& app, ExitCode& exit);
 void add_check(CLI::App& app, ExitCode& exit);
 void add_describe(CLI::App& app, ExitCode& exit);
 void add_ports(CLI::App& app, ExitCode& exit);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <iosfwd>
@@ -72,5 +74,23 @@ std::vector<RecordedLine> load_recording(std::istream& in, std::string_view name
 std::string recording_line(printer::SimTime t, std::string_view from, std::string_view key,
                            std::string_view bytes);
 std::string recording_line(const RecordedLine& line);
+
+/// When lines have gone over the wire. A board hands over a line in one piece; on the line it takes 10 bit
+/// times a byte, and cannot start before the one before it has ended. Recordings hold those ends.
+class WireClock {
+  public:
+    explicit WireClock(unsigned baud) : baud_(baud) {}
+
+    /// Puts `bytes` (line end included) on the wire at `now`; returns when the last bit has gone.
+    printer::SimTime send(printer::SimTime now, std::size_t bytes) {
+        const auto bits = static_cast<printer::SimTime::rep>(bytes) * 10;
+        free_ = std::max(free_, now) + printer::SimTime{(bits * 1'000'000 + baud_ / 2) / baud_};
+        return free_;
+    }
+
+  private:
+    printer::SimTime::rep baud_;
+    printer::SimTime free_{0};
+};
 
 }  // namespace fauxboard::host

@@ -1,0 +1,141 @@
+#include "emulator/host/folder_card.h"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <filesystem>
+#include <memory>
+#include <system_error>
+#include <tuple>
+
+#include "emulator/host/host_error.h"
+
+namespace fauxboard::host {
+namespace {
+
+using link::UniqueFd;
+using printer::CardEntry;
+
+constexpr int folder_flags = O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_NONBLOCK;
+/// Names read from one folder before it is called endless.
+constexpr std::size_t max_names = 65536;
+
+struct CloseFolder {
+    void operator()(DIR* folder) const { ::closedir(folder); }
+};
+
+/// Whether a name may be one part of a path on the line.
+bool usable_name(std::string_view name) {
+    return !name.empty() && name != "." && name != ".." && std::none_of(name.begin(), name.end(), [](char c) {
+        const auto byte = static_cast<unsigned char>(c);
+        return byte < 0x20 || byte == 0x7F || byte == '/';
+    });
+}
+
+/// The kind and size of `name` in the open folder, itself and not what it points to; missing for all that is
+/// neither file nor folder.
+printer::Volume::Kind look_at(int folder, const std::string& name, std::uint64_t& bytes) {
+    using Kind = printer::Volume::Kind;
+    struct stat info {};
+    if (::fstatat(folder, name.c_str(), &info, AT_SYMLINK_NOFOLLOW) != 0) {
+        return Kind::missing;
+    }
+    if (S_ISDIR(info.st_mode)) {
+        return Kind::folder;
+    }
+    if (!S_ISREG(info.st_mode)) {
+        return Kind::missing;
+    }
+    bytes = static_cast<std::uint64_t>(info.st_size);
+    return ::faccessat(folder, name.c_str(), R_OK, AT_EACCESS) == 0 ? Kind::file : Kind::unreadable;
+}
+
+std::vector<std::string> read_names(DIR* folder) {
+    std::vector<std::string> names;
+    while (const dirent* entry = names.size() < max_names ? ::readdir(folder) : nullptr) {
+        const bool maybe = entry->d_type == DT_REG || entry->d_type == DT_DIR || entry->d_type == DT_UNKNOWN;
+        if (maybe && usable_name(entry->d_name)) {
+            names.emplace_back(entry->d_name);
+        }
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+}  // namespace
+
+FolderCard::FolderCard(std::string folder) : root_(std::move(folder)) {
+    if (!open_root()) {
+        throw HostError(fmt::format("{} cannot be the SD card ({}). Name a folder that you may read.", root_,
+                                    std::system_category().message(errno)));
+    }
+    // The program may change its current folder; the card stays where it is.
+    std::error_code error;
+    const std::filesystem::path absolute = std::filesystem::absolute(root_, error);
+    if (!error) {
+        root_ = absolute.string();
+    }
+}
+
+UniqueFd FolderCard::open_root() const {
+    return UniqueFd(::open(root_.c_str(), folder_flags));
+}
+
+UniqueFd FolderCard::open_folder(std::string_view path) const {
+    UniqueFd fd = open_root();
+    while (fd && !path.empty()) {
+        const std::size_t slash = std::min(path.find('/'), path.size());
+        const std::string part(path.substr(0, slash));
+        path.remove_prefix(std::min(slash + 1, path.size()));
+        if (!usable_name(part)) {
+            return {};
+        }
+        // Part by part and O_NOFOLLOW: nobody who swaps a folder for a symlink meanwhile leads us outside.
+        fd = UniqueFd(::openat(fd.get(), part.c_str(), folder_flags | O_NOFOLLOW));
+    }
+    return fd;
+}
+
+bool FolderCard::list(std::string_view folder, std::vector<CardEntry>& out) const {
+    UniqueFd fd = open_folder(folder);
+    // fdopendir() takes the descriptor over; ours stays for looking at the entries.
+    const int copy = fd ? ::fcntl(fd.get(), F_DUPFD_CLOEXEC, 0) : -1;
+    const std::unique_ptr<DIR, CloseFolder> stream(copy >= 0 ? ::fdopendir(copy) : nullptr);
+    if (!stream) {
+        if (copy >= 0) {
+            ::close(copy);
+        }
+        return false;
+    }
+    std::vector<CardEntry> folders;
+    std::size_t count = 0;
+    for (std::string& name : read_names(stream.get())) {
+        std::uint64_t bytes = 0;
+        const Kind kind = count < max_entries ? look_at(fd.get(), name, bytes) : Kind::missing;
+        if (kind != Kind::missing) {
+            ++count;
+            (kind == Kind::folder ? folders : out).push_back({std::move(name), kind == Kind::folder, bytes});
+        }
+    }
+    std::move(folders.begin(), folders.end(), std::back_inserter(out));
+    return true;
+}
+
+printer::Volume::Kind FolderCard::look(std::string_view path, std::uint64_t& bytes) const {
+    bytes = 0;
+    const std::size_t slash = path.rfind('/');
+    const std::string name(slash == std::string_view::npos ? path : path.substr(slash + 1));
+    const UniqueFd folder =
+        open_folder(slash == std::string_view::npos ? std::string_view{} : path.substr(0, slash));
+    if (path.empty()) {
+        return folder ? Kind::folder : Kind::missing;
+    }
+    return folder && usable_name(name) ? look_at(folder.get(), name, bytes) : Kind::missing;
+}
+
+}  // namespace fauxboard::host

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+
+#include "emulator/link/unique_fd.h"
+#include "emulator/printer/storage.h"
+
+namespace fauxboard::host {
+
+/// A folder of this computer as the printer's SD card. Shows regular files and folders only, and never leaves
+/// the folder: symlinks, devices and pipes are not there. It is looked at anew each time, so it may change,
+/// or vanish (an empty card) and come back. Names are bytes, whatever their encoding; names with control
+/// characters are left out, since they would break the line.
+class FolderCard final : public printer::Volume {
+  public:
+    static constexpr std::size_t max_entries =
+        4096;  ///< of one folder: the first by name; the rest is left out
+
+    /// Throws HostError when `folder` is not a readable folder now.
+    explicit FolderCard(std::string folder);
+
+    /// Files first, then folders, each by name (byte order).
+    bool list(std::string_view folder, std::vector<printer::CardEntry>& out) const override;
+    /// A file that this user may not read is `unreadable`.
+    Kind look(std::string_view path, std::uint64_t& bytes) const override;
+
+  private:
+    link::UniqueFd open_root() const;
+    link::UniqueFd open_folder(std::string_view path) const;
+
+    std::string root_;
+};
+
+}  // namespace fauxboard::host

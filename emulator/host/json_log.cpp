@@ -1,0 +1,82 @@
+#include "emulator/host/json_log.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "emulator/behaviour/wire_text.h"
+#include "protocol/annotate.h"
+
+namespace fauxboard::host {
+namespace {
+
+/// A JSON string in ASCII. Text that is no UTF-8 (a path, say) shows U+FFFD for its odd bytes.
+std::string json_text(std::string_view text) {
+    return nlohmann::json(text).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+}
+
+std::string line_members(std::string_view from, std::string_view line, protocol::Direction direction) {
+    return fmt::format(R"("from": "{}", "line": {}, "words": {})", from,
+                       json_text(behaviour::from_wire(line)),
+                       json_text(protocol::explain(protocol::decode_line(line, direction))));
+}
+
+std::string_view refusal(board::Verdict verdict) {
+    switch (verdict) {
+        case board::Verdict::bad_frame:
+            return R"(, "refused": "bad frame")";
+        case board::Verdict::queue_full:
+            return R"(, "refused": "queue full")";
+        case board::Verdict::accepted:
+            break;
+    }
+    return "";
+}
+
+std::string_view name(link::LinkState state) {
+    switch (state) {
+        case link::LinkState::up:
+            return "up";
+        case link::LinkState::waiting:
+            return "waiting";
+        case link::LinkState::opening:
+            break;
+    }
+    return "opening";
+}
+
+}  // namespace
+
+void JsonLog::write(SimTime now, std::string_view members) {
+    const double t = printer::to_seconds(now);
+    const std::uint64_t left_out = out_.left_out();
+    if (left_out != told_left_out_ &&
+        out_.write(fmt::format("{{\"t\": {:.6f}, \"left_out\": {}}}\n", t, left_out - told_left_out_))) {
+        told_left_out_ = left_out;
+    }
+    out_.write(fmt::format("{{\"t\": {:.6f}, {}}}\n", t, members));
+}
+
+void JsonLog::on_received(SimTime now, board::Channel channel, std::string_view line,
+                          board::Verdict verdict) {
+    const std::string_view from = channel == board::Channel::screen ? "screen" : "host";
+    std::string members = line_members(from, line, protocol::Direction::to_board);
+    members += refusal(verdict);
+    write(now, members);
+}
+
+void JsonLog::on_sent(SimTime now, std::string_view line) {
+    write(now, line_members("board", line, protocol::Direction::to_screen));
+}
+
+void JsonLog::on_notice(SimTime now, board::Level level, std::string_view text) {
+    static constexpr std::string_view names[] = {"debug", "info", "warning", "error"};
+    write(now, fmt::format(R"("notice": {}, "level": "{}")", json_text(text),
+                           names[static_cast<std::size_t>(level)]));
+}
+
+void JsonLog::on_link(SimTime now, link::LinkState state, std::string_view why) {
+    write(now, fmt::format(R"("link": "{}", "why": {})", name(state), json_text(why)));
+}
+
+}  // namespace fauxboard::host

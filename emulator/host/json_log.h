@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "emulator/host/live_observer.h"
+#include "emulator/host/text_output.h"
+
+namespace fauxboard::host {
+
+/// The same as LineLog for a program: JSON lines, all of them.
+///
+///     {"t": 12.345678, "from": "screen", "line": "N-0 M104 S200*106", "words": "..."}
+///     {"t": 12.350000, "from": "screen", "line": "M104", "words": "...", "refused": "bad frame"}
+///     {"t": 12.395678, "from": "board", "line": "...", "words": "..."}
+///     {"t": 12.400000, "notice": "M999 is not in the profile; ignored", "level": "warning"}
+///     {"t": 13.000000, "link": "waiting", "why": "the other side closed /dev/pts/5"}
+///     {"t": 14.000000, "left_out": 12}        what nobody took in time, before this
+class JsonLog final : public LiveObserver {
+  public:
+    explicit JsonLog(TextOutput& out) : out_(out) {}
+
+    void on_received(SimTime now, board::Channel channel, std::string_view line,
+                     board::Verdict verdict) override;
+    void on_sent(SimTime now, std::string_view line) override;
+    void on_notice(SimTime now, board::Level level, std::string_view text) override;
+    void on_link(SimTime now, link::LinkState state, std::string_view why) override;
+
+  private:
+    void write(SimTime now, std::string_view members);
+
+    TextOutput& out_;
+    std::uint64_t told_left_out_ = 0;
+};
+
+}  // namespace fauxboard::host

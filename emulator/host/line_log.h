@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "emulator/host/live_observer.h"
+#include "emulator/host/text_output.h"
+
+namespace fauxboard::host {
+
+/// How much of the line a person wants to see.
+enum class Detail : std::uint8_t {
+    quiet,    ///< warnings and errors
+    normal,   ///< every line, notices, link states; in a flood, some of them
+    verbose,  ///< all there is, debug notices and floods included
+};
+
+/// Prints the talk on the line as it passes, a line each: time in seconds, direction, bytes, words.
+///
+///     12.345  screen → board  N-0 M104 S200*106            nozzle: target 200 °C
+class LineLog final : public LiveObserver {
+  public:
+    /// `lines_per_second` (of virtual time) is what passes for long in Detail::normal; bursts of four times
+    /// as many lines do, too. Zero: no limit.
+    LineLog(TextOutput& out, Detail detail, double lines_per_second);
+
+    void on_received(SimTime now, board::Channel channel, std::string_view line,
+                     board::Verdict verdict) override;
+    void on_sent(SimTime now, std::string_view line) override;
+    void on_notice(SimTime now, board::Level level, std::string_view text) override;
+    void on_link(SimTime now, link::LinkState state, std::string_view why) override;
+    /// Says what has been left out and not been told yet.
+    void finish(SimTime now);
+
+  private:
+    bool passes(SimTime now);
+    void print(SimTime now, std::string_view colour, std::string_view head, std::string_view text,
+               std::string_view words);
+
+    TextOutput& out_;
+    Detail detail_;
+    bool colours_;
+    double rate_;
+    double burst_;
+    double tokens_;
+    SimTime refilled_{0};
+    std::uint64_t held_back_ = 0;
+    std::string text_;
+};
+
+/// Bytes for a person: printable ASCII as it is, all else as \xHH.
+std::string printable(std::string_view bytes);
+
+}  // namespace fauxboard::host

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string_view>
+
+#include "emulator/board/board.h"
+#include "emulator/host/clock.h"
+#include "emulator/host/live_observer.h"
+#include "emulator/link/link.h"
+
+namespace fauxboard::host {
+
+/// A board on a link in real (or jumping) time: hands bytes and time to the board, and its output to the
+/// link. The printer goes on while nobody is at the other end. Everything happens on the event loop's thread.
+class LiveBoard final : public link::LinkListener {
+  public:
+    /// All must outlive this object, which ends by stop() or by `link` being closed. `observer` may be null.
+    LiveBoard(board::Board& board, link::Link& link, Clock& clock, LiveObserver* observer);
+
+    /// Switches the board on and starts the clock; the link is open. After `duration` of virtual time
+    /// `on_end` is called, once; `printer::never` for no end.
+    void start(SimTime duration, std::function<void()> on_end);
+    /// Puts a changed profile in force.
+    void reload(std::shared_ptr<const behaviour::Profile> profile);
+    /// Virtual time, no later than the end.
+    SimTime now() const;
+
+    void on_bytes(std::string_view bytes) override;
+    void on_state(link::LinkState state, std::string_view why) override;
+
+  private:
+    void wake();
+    void catch_up(SimTime now);
+    void settle(SimTime now);
+    void send_output();
+
+    board::Board& board_;
+    link::Link& link_;
+    Clock& clock_;
+    LiveObserver* observer_;
+    std::function<void()> on_end_;
+    SimTime end_{0};
+    SimTime due_{0};  ///< what the board's last advance() returned
+    bool running_ = false;
+};
+
+}  // namespace fauxboard::host

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <vector>
+
+#include "emulator/board/board.h"
+#include "emulator/link/link.h"
+
+namespace fauxboard::host {
+
+using board::SimTime;
+
+/// Told what passes on a live board: its lines, and the link that carries them. Must not call back.
+class LiveObserver : public board::Observer {
+  public:
+    /// See link::LinkListener::on_state.
+    virtual void on_link(SimTime now, link::LinkState state, std::string_view why) = 0;
+};
+
+/// Several observers as one, told in the order they were added.
+class Observers final : public LiveObserver {
+  public:
+    /// `observer` outlives this.
+    void add(LiveObserver& observer) { all_.push_back(&observer); }
+
+    void on_received(SimTime now, board::Channel channel, std::string_view line,
+                     board::Verdict verdict) override {
+        for (LiveObserver* each : all_)
+            each->on_received(now, channel, line, verdict);
+    }
+    void on_sent(SimTime now, std::string_view line) override {
+        for (LiveObserver* each : all_)
+            each->on_sent(now, line);
+    }
+    void on_notice(SimTime now, board::Level level, std::string_view text) override {
+        for (LiveObserver* each : all_)
+            each->on_notice(now, level, text);
+    }
+    void on_link(SimTime now, link::LinkState state, std::string_view why) override {
+        for (LiveObserver* each : all_)
+            each->on_link(now, state, why);
+    }
+
+  private:
+    std::vector<LiveObserver*> all_;
+};
+
+}  // namespace fauxboard::host

@@ -1,0 +1,69 @@
+#include "emulator/host/recorder.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+#include "emulator/host/host_error.h"
+#include "emulator/host/recording.h"
+
+namespace fauxboard::host {
+
+Recorder::Recorder(std::string file, OnTrouble on_trouble)
+    : file_(std::move(file)),
+      on_trouble_(std::move(on_trouble)),
+      fd_(::open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOCTTY, 0666)) {
+    if (!fd_) {
+        throw HostError(
+            fmt::format("The recording {} cannot be written ({}). Name a file in a folder of "
+                        "yours.",
+                        file_, std::system_category().message(errno)));
+    }
+}
+
+void Recorder::on_received(SimTime now, board::Channel channel, std::string_view line, board::Verdict) {
+    write(now, channel == board::Channel::screen ? "screen" : "host", line);
+}
+
+void Recorder::on_sent(SimTime now, std::string_view line) {
+    write(now, "board", line);
+}
+
+void Recorder::write(SimTime now, std::string_view from, std::string_view line) {
+    if (!fd_) {
+        return;
+    }
+    const std::string text = recording_line(now, from, "line", line);
+    std::size_t done = 0;
+    while (done < text.size()) {
+        const ssize_t count = ::write(fd_.get(), text.data() + done, text.size() - done);
+        if (count < 0 && errno == EINTR) {
+            continue;
+        }
+        if (count <= 0) {
+            give_up(now, count < 0 ? errno : EIO, done);
+            return;
+        }
+        done += static_cast<std::size_t>(count);
+    }
+    ++lines_;
+}
+
+void Recorder::give_up(SimTime now, int error, std::size_t torn) {
+    // Half a line would make the whole recording unreadable. On a pipe this fails and does no harm.
+    const off_t end = ::lseek(fd_.get(), 0, SEEK_CUR);
+    if (torn != 0 && end >= 0) {
+        [[maybe_unused]] const int cut = ::ftruncate(fd_.get(), end - static_cast<off_t>(torn));
+    }
+    fd_.reset();
+    if (on_trouble_) {
+        on_trouble_(now, fmt::format("the recording {} ends here, after {} lines: {}", file_, lines_,
+                                     std::system_category().message(error)));
+    }
+}
+
+}  // namespace fauxboard::host

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "emulator/host/live_observer.h"
+#include "emulator/link/unique_fd.h"
+
+namespace fauxboard::host {
+
+/// Writes every line of the wire to a recording (see recording.h), each at once, so that a kill loses none.
+class Recorder final : public LiveObserver {
+  public:
+    /// Told once, when the recording had to end early: a full disk ends the recording, not the board.
+    using OnTrouble = std::function<void(SimTime now, std::string_view sentence)>;
+
+    /// Creates or empties `file`. Throws HostError.
+    explicit Recorder(std::string file, OnTrouble on_trouble);
+
+    void on_received(SimTime now, board::Channel channel, std::string_view line,
+                     board::Verdict verdict) override;
+    void on_sent(SimTime now, std::string_view line) override;
+    void on_notice(SimTime, board::Level, std::string_view) override {}
+    void on_link(SimTime, link::LinkState, std::string_view) override {}
+
+    std::uint64_t lines() const { return lines_; }
+
+  private:
+    void write(SimTime now, std::string_view from, std::string_view line);
+    void give_up(SimTime now, int error, std::size_t torn);
+
+    std::string file_;
+    OnTrouble on_trouble_;
+    link::UniqueFd fd_;
+    std::uint64_t lines_ = 0;
+};
+
+}  // namespace fauxboard::host

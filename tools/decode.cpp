@@ -1,0 +1,112 @@
+// `fauxboard decode`: what each line of a recording means, in words.
+
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Option.hpp>
+#include <cerrno>
+#include <cstdio>
+#include <deque>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "emulator/host/host_error.h"
+#include "emulator/host/transcript.h"
+#include "emulator/host/transcript_words.h"
+#include "tools/report.h"
+
+namespace fauxboard::tools {
+namespace {
+
+constexpr const char* legend =
+    R"(Forms, told apart by their content, line by line:
+  {"t": 16.451778, "from": "screen", "line": "..."}   what run, tap and replay record
+  15:15:12.123456789 - line                           one direction a file; several are merged by time
+  anything else                                       the line itself
+Marks at the start of a line: ! its checksum is wrong, ? its code or a field is unknown, x it cannot be read.
+For lines that do not say who said them, that is told by what they say.)";
+
+struct DecodeOptions {
+    std::vector<std::string> files;
+    bool json = false;
+};
+
+/// The files, kept open while they are read.
+class Inputs {
+  public:
+    /// Throws HostError.
+    explicit Inputs(const std::vector<std::string>& files) {
+        if (files.empty()) {
+            add("-");
+        }
+        for (const std::string& file : files) {
+            add(file);
+        }
+    }
+    std::vector<host::TranscriptReader> take() { return std::move(readers_); }
+
+  private:
+    void add(const std::string& file) {
+        if (file == "-") {
+            readers_.emplace_back(std::cin, "stdin");
+            return;
+        }
+        std::error_code error;
+        const bool folder = std::filesystem::is_directory(file, error);
+        errno = 0;
+        std::ifstream& in = streams_.emplace_back(file, std::ios::binary);
+        if (!in || folder) {
+            throw host::HostError(
+                fmt::format("{} cannot be read: {}.", file,
+                            folder ? "it is a folder" : std::system_category().message(errno)));
+        }
+        readers_.emplace_back(in, file);
+    }
+
+    std::deque<std::ifstream> streams_;
+    std::vector<host::TranscriptReader> readers_;
+};
+
+ExitCode decode(const DecodeOptions& options) {
+    try {
+        std::ios::sync_with_stdio(false);  // so that lines of a pipe are taken as they come
+        Inputs inputs(options.files);
+        const bool live = options.files.empty();
+        const std::vector<host::LineJudge> judges = host::line_judges();
+        host::Transcripts transcripts(inputs.take());
+        while (auto entry = transcripts.next()) {
+            const host::JudgedLine line = host::judge(std::move(*entry), judges);
+            const std::string text = options.json ? host::json_line(line) : host::text_line(line);
+            std::fwrite(text.data(), 1, text.size(), stdout);
+            if (live && std::cin.rdbuf()->in_avail() <= 0) {
+                std::fflush(stdout);
+            }
+            if (std::ferror(stdout) != 0) {
+                break;  // nobody reads any more
+            }
+        }
+        std::fflush(stdout);
+        return ExitCode::ok;
+    } catch (const host::HostError& error) {
+        return complain("decode", ExitCode::bad_input, error.what());
+    }
+}
+
+}  // namespace
+
+void add_decode(CLI::App& app, ExitCode& exit) {
+    CLI::App* command = app.add_subcommand("decode", "Say in words what each line of a recording means");
+    const auto options = std::make_shared<DecodeOptions>();
+    command->add_option("FILE", options->files, "Recordings; none or '-': standard input");
+    command->add_flag("--json", options->json, "One JSON object a line; timed ones are a recording again");
+    command->footer(legend);
+    command->callback([options, &exit] { exit = decode(*options); });
+}
+
+}  // namespace fauxboard::tools

@@ -1,0 +1,69 @@
+// `fauxboard describe`: the reference, from the tables in the code.
+
+#include <algorithm>
+#include <fstream>
+#include <memory>
+#include <vector>
+
+#include "tools/describe_reference.h"
+#include "tools/report.h"
+
+namespace fauxboard::tools {
+namespace {
+
+struct DescribeArguments {
+    std::vector<std::string> parts;
+    bool json = false;
+    bool markdown = false;
+    std::string schema;
+};
+
+ExitCode describe_schema(const std::string& file) {
+    std::ifstream in(file, std::ios::binary);
+    const auto schema = nlohmann::ordered_json::parse(in, nullptr, false);
+    if (!schema.is_object() || !schema.contains("definitions")) {
+        return complain("describe", ExitCode::bad_input, file + ": no schema of profiles");
+    }
+    print(schema_text(refresh_schema(schema)));
+    return ExitCode::ok;
+}
+
+ExitCode describe(const DescribeArguments& arguments) {
+    if (!arguments.schema.empty()) {
+        return describe_schema(arguments.schema);
+    }
+    if (arguments.markdown) {
+        print(reference_markdown());
+        return ExitCode::ok;
+    }
+    std::vector<std::string_view> parts(reference_parts.begin(), reference_parts.end());
+    if (!arguments.parts.empty()) {
+        std::erase_if(parts, [&](std::string_view part) {
+            return std::find(arguments.parts.begin(), arguments.parts.end(), part) == arguments.parts.end();
+        });
+    }
+    print(arguments.json ? reference_json(parts).dump(2) + "\n" : reference_text(parts));
+    return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_describe(CLI::App& app, ExitCode& exit) {
+    CLI::App* command =
+        app.add_subcommand("describe", "The reference: fields, actions, events, codes of the protocol");
+    const auto arguments = std::make_shared<DescribeArguments>();
+    command->add_option("part", arguments->parts, "Which parts; all when none is named")
+        ->check(CLI::IsMember(std::vector<std::string>(reference_parts.begin(), reference_parts.end())));
+    CLI::Option* json = command->add_flag("--json", arguments->json, "As a JSON object");
+    CLI::Option* markdown = command->add_flag("--markdown", arguments->markdown,
+                                              "All of it as the Markdown page profiles/REFERENCE.md");
+    command
+        ->add_option("--schema", arguments->schema,
+                     "Print this schema of profiles with its generated part made anew")
+        ->excludes(json)
+        ->excludes(markdown);
+    markdown->excludes(json);
+    command->callback([arguments, &exit] { exit = describe(*arguments); });
+}
+
+}  // namespace fauxboard::tools

@@ -1,0 +1,34 @@
+#pragma once
+
+// The reference, made from the tables in the code: what `fauxboard describe` prints, what
+// profiles/REFERENCE.md holds, and the generated part of the profiles' schema. Tests compare the files with
+// it.
+
+#include <array>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace fauxboard::tools {
+
+/// The parts of the reference, in its order.
+inline constexpr std::array<std::string_view, 4> reference_parts{"fields", "actions", "events", "codes"};
+
+/// The parts asked for, an array under each name.
+nlohmann::ordered_json reference_json(std::span<const std::string_view> parts);
+
+/// For a terminal.
+std::string reference_text(std::span<const std::string_view> parts);
+
+/// The whole reference as a Markdown page.
+std::string reference_markdown();
+
+/// The schema of profiles with what the tables know put in anew: the fields of `when`, `set`, `add` and
+/// `defaults`, the actions with their arguments, the events. The rest stays as it is.
+nlohmann::ordered_json refresh_schema(nlohmann::ordered_json schema);
+
+/// A schema as it stands in its file.
+std::string schema_text(const nlohmann::ordered_json& schema);
+
+}  // namespace fauxboard::tools

@@ -1,0 +1,120 @@
+// The `fauxboard` command: its subcommands, help, and what its exit code tells.
+
+#include <fcntl.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "emulator/behaviour/nearest.h"
+#include "tools/commands.h"
+
+namespace fauxboard::tools {
+namespace {
+
+constexpr const char* what_it_is =
+    "fauxboard stands in for a 3D printer's control board: plug a real touch screen into this computer, or\n"
+    "point a program at it, and it answers as the printer would. It is not a printer. Nothing heats, "
+    "nothing\n"
+    "moves.";
+
+constexpr const char* examples =
+    R"(Examples:
+  fauxboard run --port auto              a real screen on the only USB-TTL adapter
+  fauxboard run --pty=/tmp/screen        a pseudo-terminal for a program, with a name
+  fauxboard run --tcp 127.0.0.1:4000     a socket
+  fauxboard send --port /tmp/screen M105   ask it for its temperatures
+  fauxboard profiles                     the boards it can be
+  fauxboard COMMAND --help               all about one command
+
+Exit codes:
+  0   done
+  1   it ran, and the answer is no: a difference, a wrong profile, an expectation not met
+  2   the command line is wrong
+  3   a profile, recording, folder or file to work with is missing or wrong
+  4   a port, socket or link name cannot be opened
+  5   nothing came in the time allowed
+  70  a bug in fauxboard: please report it)";
+
+/// A descriptor closed by our caller would be given to the first port that we open, and text meant for people
+/// would go out on it.
+void fill_standard_descriptors() {
+    for (const int fd : {0, 1, 2}) {
+        if (::fcntl(fd, F_GETFD) == -1 && errno == EBADF) {
+            ::open("/dev/null", O_RDWR);  // takes the lowest free number: fd
+        }
+    }
+}
+
+/// CLI11 only says that a subcommand is required.
+bool is_unknown_command(const CLI::App& app, int argc, char** argv) {
+    if (argc < 2 || argv[1][0] == '-') {
+        return false;
+    }
+    std::vector<std::string_view> names;
+    std::string known;
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+        if (command->get_name() == argv[1]) {
+            return false;
+        }
+        names.emplace_back(command->get_name());
+        known += ' ' + command->get_name();
+    }
+    const std::string nearest(behaviour::nearest(argv[1], names));
+    const std::string hint = nearest.empty() ? "" : "; did you mean '" + nearest + "'?";
+    std::fprintf(stderr, "fauxboard: there is no command '%s'; known:%s%s\n", argv[1], known.c_str(),
+                 hint.c_str());
+    return true;
+}
+
+int run_app(int argc, char** argv) {
+    CLI::App app{what_it_is, "fauxboard"};
+    ExitCode exit = ExitCode::ok;
+    app.set_version_flag("--version", "fauxboard " FAUXBOARD_VERSION);
+    app.require_subcommand(1);
+    add_run(app, exit);
+    add_send(app, exit);
+    add_replay(app, exit);
+    add_tap(app, exit);
+    add_decode(app, exit);
+    add_check(app, exit);
+    add_describe(app, exit);
+    add_ports(app, exit);
+    add_profiles(app, exit);
+    app.footer(examples);  // last, since the subcommands made before inherit none of it
+    if (is_unknown_command(app, argc, argv)) {
+        return static_cast<int>(ExitCode::usage);
+    }
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& success) {  // --help, --version
+        return app.exit(success) == 0 ? static_cast<int>(ExitCode::ok) : static_cast<int>(ExitCode::internal);
+    } catch (const CLI::ParseError& error) {
+        app.exit(error);
+        return static_cast<int>(ExitCode::usage);
+    }
+    return static_cast<int>(exit);
+}
+
+}  // namespace
+}  // namespace fauxboard::tools
+
+int main(int argc, char** argv) {
+    std::signal(SIGPIPE, SIG_IGN);
+    try {
+        fauxboard::tools::fill_standard_descriptors();
+        return fauxboard::tools::run_app(argc, argv);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "fauxboard: a bug, please report it: %s\n", error.what());
+    } catch (...) {
+        std::fputs("fauxboard: a bug, please report it: an exception of unknown kind\n", stderr);
+    }
+    return static_cast<int>(fauxboard::tools::ExitCode::internal);
+}

@@ -1,0 +1,84 @@
+// `fauxboard replay`: a recorded talk once more, in virtual time, with our board on the other side.
+
+#include "emulator/host/replay.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "emulator/host/compare.h"
+#include "emulator/host/profile_files.h"
+#include "tools/report.h"
+
+namespace fauxboard::tools {
+namespace {
+
+struct ReplayArguments {
+    std::string profile = "geeetech-a30t";
+    std::string capture;
+    host::ReplayOptions options;
+    bool compare = false;
+    bool json = false;
+};
+
+/// What the board would have told a person, on stderr so that stdout stays a recording.
+void print_notices(const host::ReplayResult& result) {
+    for (const host::ReplayNotice& notice : result.notices) {
+        if (notice.level >= behaviour::Level::warning) {
+            fmt::print(stderr, "{:.3f} s: {}\n", printer::to_seconds(notice.t), notice.text);
+        }
+    }
+}
+
+ExitCode replay(const ReplayArguments& arguments) {
+    const auto profile = host::load_profile_by_name(arguments.profile);
+    const auto recording = host::load_recording(std::filesystem::path(arguments.capture));
+    const host::ReplayResult result = host::replay(profile, recording, arguments.options);
+    print_notices(result);
+    if (!arguments.compare) {
+        std::string text;
+        for (const host::RecordedLine& line : result.lines) {
+            text += host::recording_line(line);
+        }
+        print(text);
+        return ExitCode::ok;
+    }
+    const host::Comparison comparison =
+        host::compare(recording, result.lines, profile->machine->thermal.fold);
+    print(arguments.json ? host::comparison_json(comparison).dump(2, ' ', true) + "\n"
+                         : host::comparison_text(comparison));
+    return comparison.ok() ? ExitCode::ok : ExitCode::failed;
+}
+
+ExitCode guarded(const ReplayArguments& arguments) {
+    try {
+        return replay(arguments);
+    } catch (const behaviour::ProfileError& error) {
+        return complain("replay", ExitCode::bad_input, error.what());
+    } catch (const host::RecordingError& error) {
+        return complain("replay", ExitCode::bad_input, error.what());
+    } catch (const host::ReplayError& error) {
+        return complain("replay", ExitCode::bad_input, arguments.capture + ": " + error.what());
+    }
+}
+
+}  // namespace
+
+void add_replay(CLI::App& app, ExitCode& exit) {
+    CLI::App* command = app.add_subcommand(
+        "replay",
+        "Put a recorded screen's requests to a board in virtual time; its lines come out on stdout");
+    const auto arguments = std::make_shared<ReplayArguments>();
+    command->add_option("--profile", arguments->profile, "The board: a name (see `profiles`) or a file")
+        ->capture_default_str();
+    command->add_option("--seed", arguments->options.seed, "Start of the random sequence")
+        ->capture_default_str();
+    command->add_option("capture", arguments->capture, "The recording, JSON lines")->required();
+    CLI::Option* compare = command->add_flag(
+        "--compare", arguments->compare,
+        "Report instead how our lines differ from the recorded board's; exit code 1 when too much");
+    command->add_flag("--json", arguments->json, "The report as one JSON object")->needs(compare);
+    command->callback([arguments, &exit] { exit = guarded(*arguments); });
+}
+
+}  // namespace fauxboard::tools

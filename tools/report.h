@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string_view>
+
+#include "tools/commands.h"
+
+namespace fauxboard::tools {
+
+/// Says on stderr what went wrong in a subcommand, and hands the exit code back: `return complain("run",
+/// ExitCode::no_port, error.what());`
+ExitCode complain(std::string_view command, ExitCode code, std::string_view sentence);
+
+/// Writes a whole text to stdout, waiting where it must; a closed stdout is none of our business.
+void print(std::string_view text);
+
+}  // namespace fauxboard::tools

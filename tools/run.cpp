@@ -1,0 +1,210 @@
+// `fauxboard run`: one board, live on a line.
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "emulator/host/clock.h"
+#include "emulator/host/eeprom_file.h"
+#include "emulator/host/folder_card.h"
+#include "emulator/host/host_error.h"
+#include "emulator/host/json_log.h"
+#include "emulator/host/line_log.h"
+#include "emulator/host/live_board.h"
+#include "emulator/host/profile_files.h"
+#include "emulator/host/profile_watch.h"
+#include "emulator/host/recorder.h"
+#include "emulator/link/event_loop.h"
+#include "emulator/link/ports.h"
+#include "tools/commands.h"
+#include "tools/report.h"
+#include "tools/run_options.h"
+// After event_loop.h, which see.
+#include <asio/signal_set.hpp>
+
+namespace fauxboard::tools {
+namespace {
+
+using link::LinkState;
+using printer::SimTime;
+
+/// What a person can still follow, per second. A real line has some twenty at most.
+constexpr double log_lines_per_second = 100;
+
+/// Everything that one run needs, in the order in which it must come and (backwards) go.
+class Run {
+  public:
+    explicit Run(const RunOptions& options)
+        : options_(options),
+          out_(STDOUT_FILENO),
+          err_(STDERR_FILENO),
+          log_(err_, options.json ? host::Detail::quiet : options.detail, log_rate(options.speed)),
+          json_(out_),
+          profile_(host::load_profile_by_name(options.profile)),
+          clock_(host::make_clock(loop_, options.speed)),
+          signals_(loop_, SIGINT, SIGTERM, SIGHUP),
+          watch_(loop_, [this] { reload(); }) {}
+
+    void operator()();
+
+  private:
+    static double log_rate(const host::Speed& speed) {
+        return speed.max ? 0 : log_lines_per_second / speed.factor;
+    }
+    void set_up();
+    std::unique_ptr<link::Link> make_link();
+    void say_ready();
+    void say(board::Level level, std::string_view text);
+    void reload();
+    void say_summary();
+
+    const RunOptions& options_;
+    asio::io_context loop_{1};
+    host::TextOutput out_;
+    host::TextOutput err_;
+    host::LineLog log_;
+    host::JsonLog json_;
+    host::Observers observers_;
+    std::shared_ptr<const behaviour::Profile> profile_;
+    std::optional<host::FolderCard> card_;
+    std::optional<host::EepromFile> eeprom_;
+    std::optional<host::Recorder> recorder_;
+    std::unique_ptr<host::Clock> clock_;
+    std::unique_ptr<link::Link> link_;
+    std::optional<board::Board> board_;
+    std::optional<host::LiveBoard> live_;
+    asio::signal_set signals_;
+    host::ProfileWatch watch_;
+};
+
+void Run::say(board::Level level, std::string_view text) {
+    observers_.on_notice(live_ ? live_->now() : SimTime{0}, level, text);
+}
+
+std::unique_ptr<link::Link> Run::make_link() {
+    if (!options_.tcp.empty()) {
+        return link::make_tcp_listen_link(loop_, options_.tcp);
+    }
+    if (!options_.port.empty()) {
+        const std::string port = options_.port == "auto" ? link::pick_auto_port() : options_.port;
+        return link::make_port_link(loop_, port, options_.baud != 0 ? options_.baud : profile_->line.baud);
+    }
+    return link::make_pty_link(loop_, options_.pty_name);
+}
+
+void Run::set_up() {
+    observers_.add(log_);
+    const auto warn = [this](std::string_view text) { say(board::Level::warning, text); };
+    if (!options_.record.empty()) {
+        recorder_.emplace(options_.record, [warn](SimTime, std::string_view text) { warn(text); });
+        observers_.add(*recorder_);
+    }
+    printer::Services services;
+    if (!options_.sd.empty()) {
+        services.sd = &card_.emplace(options_.sd);
+    }
+    if (!options_.eeprom.empty()) {
+        services.eeprom = &eeprom_.emplace(options_.eeprom, warn);
+    }
+    board::Options options;
+    options.pacing = options_.pacing;
+    options.seed = options_.seed;
+    options.observer = &observers_;
+    board_.emplace(profile_, services, options);
+    link_ = make_link();
+    live_.emplace(*board_, *link_, *clock_, &observers_);
+}
+
+void Run::say_ready() {
+    nlohmann::ordered_json ready{
+        {"profile", profile_->name}, {"link", link_->kind()}, {"path", link_->path()}};
+    if (!options_.pty_name.empty()) {
+        ready["name"] = options_.pty_name;
+    }
+    out_.write("ready " + ready.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) + "\n");
+    if (options_.json) {
+        observers_.add(json_);  // not before: the ready line is the first
+    }
+    err_.write(
+        fmt::format("This is fauxboard, an emulator: there is no real printer here.\n"
+                    "{} on {}. Ctrl-C ends it.\n",
+                    profile_->title.empty() ? profile_->name : profile_->title, link_->describe()));
+}
+
+void Run::reload() {
+    try {
+        auto profile = host::load_profile_by_name(options_.profile);
+        watch_.watch(profile->files);
+        profile_ = profile;
+        live_->reload(std::move(profile));
+        say(board::Level::info, "the changed profile is in force");
+    } catch (const behaviour::ProfileError& error) {
+        say(board::Level::error, "the changed profile is wrong, the one before stays in force:");
+        for (const behaviour::Problem& problem : error.problems()) {
+            say(board::Level::error, problem.sentence());
+        }
+    }
+}
+
+void Run::say_summary() {
+    const board::Counters& c = board_->counters();
+    const link::LinkStats& l = link_->stats();
+    err_.write(fmt::format(
+        "After {:.3f} s: {} lines from the screen, {} to it. Bad frames {}, too long {}, unknown codes {}, "
+        "no rule {}, requests lost {}, messages lost {}, cut {}. Bytes in {}, out {}, lost {}.\n",
+        printer::to_seconds(live_->now()), c.lines_received, c.lines_sent, c.bad_frames,
+        board_->lines_too_long(), c.unknown_codes, c.unmatched, c.requests_lost, c.messages_lost, c.lines_cut,
+        l.bytes_in, l.bytes_out, l.bytes_lost));
+}
+
+void Run::operator()() {
+    set_up();
+    signals_.async_wait([this](const asio::error_code& error, int) {
+        if (!error) {
+            loop_.stop();
+        }
+    });
+    link_->open(*live_);
+    say_ready();
+    if (options_.reload) {
+        watch_.watch(profile_->files);
+        if (!watch_.works()) {
+            say(board::Level::info,
+                "this system does not tell of changed files; changes of the profile are "
+                "not noticed");
+        }
+    }
+    live_->start(options_.duration, [this] { loop_.stop(); });
+    clock_->run();
+    link_->close();
+    log_.finish(live_->now());
+    say_summary();
+}
+
+ExitCode run(const RunOptions& options) {
+    try {
+        Run{options}();
+        return ExitCode::ok;
+    } catch (const behaviour::ProfileError& error) {
+        return complain("run", ExitCode::bad_input, error.what());
+    } catch (const host::HostError& error) {
+        return complain("run", ExitCode::bad_input, error.what());
+    } catch (const link::LinkError& error) {
+        return complain("run", ExitCode::no_port, error.what());
+    }
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, ExitCode& exit) {
+    CLI::App* command = app.add_subcommand("run", "Be a control board, live on a line");
+    const auto options = std::make_shared<RunOptions>();
+    declare_run_options(*command, *options);
+    command->callback([options, &exit] { exit = run(*options); });
+}
+
+}  // namespace fauxboard::tools

@@ -1,0 +1,97 @@
+#include "tools/run_options.h"
+
+#include <CLI/Error.hpp>
+#include <CLI/Option.hpp>
+#include <stdexcept>
+
+namespace fauxboard::tools {
+namespace {
+
+void declare_line(CLI::App& command, RunOptions& options) {
+    CLI::Option* port =
+        command.add_option("--port", options.port, "Serial port, or 'auto' for the only USB adapter")
+            ->type_name("DEV|auto");
+    CLI::Option* tcp =
+        command.add_option("--tcp", options.tcp, "Listen for one client instead; port 0 takes a free one")
+            ->type_name("HOST:PORT");
+    CLI::Option* pty = command
+                           .add_option("--pty", options.pty_name,
+                                       "A pseudo-terminal (the default), with a name of your choice")
+                           ->type_name("[=LINK]")
+                           ->expected(0, 1);
+    port->excludes(tcp)->excludes(pty);
+    tcp->excludes(pty);
+    command.add_option("--baud", options.baud, "Bits per second (default: the profile's)")
+        ->type_name("N")
+        ->check(CLI::Range(50U, 4'000'000U));
+    command.add_flag_callback(
+        "--no-pacing", [&options] { options.pacing = false; },
+        "Reply at once instead of on the board's transmit tick");
+}
+
+void declare_time(CLI::App& command, RunOptions& options) {
+    command
+        .add_option_function<std::string>(
+            "--speed",
+            [&options](const std::string& text) {
+                const auto speed = host::parse_speed(text);
+                if (!speed) {
+                    throw CLI::ValidationError("--speed", "'" + text +
+                                                              "' is no speed; expected a number from 0.01 "
+                                                              "to 1000000, or max");
+                }
+                options.speed = *speed;
+            },
+            "Virtual seconds per second; 'max' never waits")
+        ->type_name("N|max");
+    command
+        .add_option_function<std::string>(
+            "--duration",
+            [&options](const std::string& text) {
+                const auto duration = host::parse_duration(text);
+                if (!duration) {
+                    throw CLI::ValidationError("--duration", "'" + text +
+                                                                 "' is no time; expected 500ms, 10s, 5min, "
+                                                                 "24h or seconds");
+                }
+                options.duration = *duration;
+            },
+            "Stop after this virtual time: 500ms, 10s, 5min, 24h")
+        ->type_name("T");
+    command.add_option("--seed", options.seed, "Of all noise: the same seed and input give the same bytes")
+        ->type_name("N")
+        ->check(CLI::NonNegativeNumber);
+}
+
+void declare_talk(CLI::App& command, RunOptions& options) {
+    command.add_option("--record", options.record, "Write every line of the wire to a recording")
+        ->type_name("FILE");
+    command.add_flag("--json", options.json, "The log as JSON lines on stdout, instead of text on stderr");
+    CLI::Option* verbose = command.add_flag_callback(
+        "-v,--verbose", [&options] { options.detail = host::Detail::verbose; }, "Log all there is");
+    command
+        .add_flag_callback(
+            "-q,--quiet", [&options] { options.detail = host::Detail::quiet; },
+            "Log warnings and errors only")
+        ->excludes(verbose);
+}
+
+}  // namespace
+
+void declare_run_options(CLI::App& command, RunOptions& options) {
+    command.add_option("--profile", options.profile, "The board: a name of `fauxboard profiles`, or a file")
+        ->type_name("NAME|FILE")
+        ->capture_default_str();
+    declare_line(command, options);
+    command.add_option("--sd", options.sd, "Folder that is the SD card (default: a small built-in card)")
+        ->type_name("DIR");
+    command.add_option("--eeprom", options.eeprom, "File that keeps the board's settings (default: none)")
+        ->type_name("FILE");
+    declare_time(command, options);
+    declare_talk(command, options);
+    command.add_flag_callback(
+        "--no-reload", [&options] { options.reload = false; },
+        "Do not take a changed profile into force while running");
+}
+
+}  // namespace fauxboard::tools

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "emulator/host/line_log.h"
+#include "emulator/host/time_text.h"
+#include "emulator/printer/sim_time.h"
+
+namespace fauxboard::tools {
+
+/// What `fauxboard run` was asked for.
+struct RunOptions {
+    std::string profile = "geeetech-a30t";
+    std::string port;      ///< a device or "auto"; empty: none
+    std::string tcp;       ///< "HOST:PORT"; empty: none
+    std::string pty_name;  ///< symlink to our pty; empty: none
+    unsigned baud = 0;     ///< bit/s; 0: what the profile says
+    host::Speed speed;
+    std::uint64_t seed = 1;
+    std::string sd;      ///< folder; empty: the card that the profile carries
+    std::string eeprom;  ///< file; empty: in memory
+    std::string record;  ///< file; empty: none
+    printer::SimTime duration = printer::never;
+    bool pacing = true;
+    bool json = false;
+    bool reload = true;
+    host::Detail detail = host::Detail::normal;
+};
+
+/// Declares the options of `run`, which are kept in `options`; its pointer must live as long as `command`.
+void declare_run_options(CLI::App& command, RunOptions& options);
+
+}  // namespace fauxboard::tools

@@ -1,0 +1,208 @@
+// `fauxboard send`: the screen's side of a line, one command after the other.
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "emulator/host/clock.h"
+#include "emulator/host/json_log.h"
+#include "emulator/host/line_log.h"
+#include "emulator/link/event_loop.h"
+#include "emulator/link/link.h"
+#include "emulator/link/ports.h"
+#include "protocol/annotate.h"
+#include "tools/report.h"
+
+namespace fauxboard::tools {
+namespace {
+
+using printer::SimTime;
+
+struct SendOptions {
+    std::string port;
+    std::string tcp;
+    unsigned baud = 115200;
+    bool bare = false;
+    bool json = false;
+    unsigned wait_ms = 500;
+    std::vector<std::string> commands;
+};
+
+/// A line that talks all the time (a printing board's) is quiet never: so many quiet times are enough.
+constexpr int patience = 10;
+
+bool is_framed(std::string_view command) {
+    return command.size() > 1 && command[0] == 'N' &&
+           (command[1] == '-' || std::isdigit(static_cast<unsigned char>(command[1])) != 0);
+}
+
+/// The line for a command, line end included.
+std::string line_of(const std::string& command, bool bare) {
+    return bare || is_framed(command) ? command + "\r\n" : protocol::frame(command);
+}
+
+/// A sentence about a command that cannot be meant; empty for one that can.
+std::string objection(const std::string& command) {
+    if (command.empty()) {
+        return "an empty command";
+    }
+    if (std::any_of(command.begin(), command.end(),
+                    [](char c) { return c == '\r' || c == '\n' || c == '\0'; })) {
+        return "a command is one line";
+    }
+    const bool parameter = std::string_view("ABCDEFHIJKPQRSUVWXYZ").find(command[0]) != std::string::npos &&
+                           command.find_first_not_of("0123456789.-", 1) == std::string::npos;
+    return parameter
+               ? fmt::format("'{0}' is a parameter; quote a command with its parameters: 'M104 {0}'", command)
+               : std::string();
+}
+
+/// Sends the commands over an open link and shows the talk.
+class Talk final : public link::LinkListener {
+  public:
+    Talk(const SendOptions& options, asio::io_context& loop)
+        : options_(options),
+          loop_(loop),
+          clock_(host::make_clock(loop, host::Speed{})),
+          out_(STDOUT_FILENO, host::TextOutput::WhenFull::wait) {
+        if (options.json) {
+            log_ = std::make_unique<host::JsonLog>(out_);
+        } else {
+            log_ = std::make_unique<host::LineLog>(out_, host::Detail::verbose, 0);
+        }
+    }
+
+    ExitCode run(link::Link& link) {
+        link_ = &link;
+        clock_->start([this] { wake(); });
+        link.open(*this);
+        next();
+        clock_->run();
+        link.close();
+        return result_;
+    }
+
+    void on_bytes(std::string_view bytes) override {
+        splitter_.feed(bytes, [this](std::string_view line) {
+            log_->on_sent(clock_->now(), line);
+            answered_ = true;
+        });
+        quiet_until_ = std::min(clock_->now() + wait(), limit_);
+    }
+
+    void on_state(link::LinkState state, std::string_view why) override {
+        if (state != link::LinkState::up) {
+            finish(complain("send", ExitCode::no_port, why));
+        }
+    }
+
+  private:
+    SimTime wait() const { return std::chrono::milliseconds(options_.wait_ms); }
+
+    void finish(ExitCode result) {
+        result_ = result;
+        loop_.stop();
+    }
+
+    void next() {
+        if (at_ == options_.commands.size()) {
+            loop_.stop();
+            return;
+        }
+        const std::string line = line_of(options_.commands[at_], options_.bare);
+        const SimTime now = clock_->now();
+        log_->on_received(now, board::Channel::screen, std::string_view(line).substr(0, line.size() - 2),
+                          board::Verdict::accepted);
+        link_->write(line);
+        answered_ = false;
+        quiet_until_ = now + wait();
+        limit_ = now + patience * wait();
+        clock_->wake_at(quiet_until_);
+    }
+
+    void wake() {
+        if (clock_->now() < quiet_until_) {
+            clock_->wake_at(quiet_until_);
+            return;
+        }
+        judge(options_.commands[at_]);
+        ++at_;
+        next();
+    }
+
+    void judge(const std::string& command) {
+        const protocol::DecodedLine decoded = protocol::decode_line(command, protocol::Direction::to_board);
+        if (!answered_ && decoded.code != nullptr && !decoded.code->answer.empty()) {
+            result_ = complain("send", ExitCode::timed_out,
+                               fmt::format("nothing came back for '{}' in {} ms; expected {}", command,
+                                           options_.wait_ms, decoded.code->answer));
+        }
+    }
+
+    const SendOptions& options_;
+    asio::io_context& loop_;
+    std::unique_ptr<host::Clock> clock_;
+    host::TextOutput out_;
+    std::unique_ptr<host::LiveObserver> log_;
+    protocol::LineSplitter splitter_;
+    link::Link* link_ = nullptr;
+    std::size_t at_ = 0;
+    bool answered_ = false;
+    SimTime quiet_until_{0};
+    SimTime limit_{0};
+    ExitCode result_ = ExitCode::ok;
+};
+
+ExitCode send(const SendOptions& options) {
+    if (!options.bare) {
+        for (const std::string& command : options.commands) {
+            if (const std::string wrong = objection(command); !wrong.empty()) {
+                return complain("send", ExitCode::usage, wrong);
+            }
+        }
+    }
+    try {
+        asio::io_context loop{1};
+        const std::string port = options.port == "auto" ? link::pick_auto_port() : options.port;
+        const std::unique_ptr<link::Link> link = options.tcp.empty()
+                                                     ? link::make_port_link(loop, port, options.baud)
+                                                     : link::make_tcp_connect_link(loop, options.tcp);
+        return Talk(options, loop).run(*link);
+    } catch (const link::LinkError& error) {
+        return complain("send", ExitCode::no_port, error.what());
+    }
+}
+
+}  // namespace
+
+void add_send(CLI::App& app, ExitCode& exit) {
+    CLI::App* command =
+        app.add_subcommand("send", "Send commands as a screen would, and show what comes back");
+    const auto options = std::make_shared<SendOptions>();
+    CLI::Option_group* line = command->add_option_group("line", "Where the board is");
+    line->add_option("--port", options->port, "Serial port, pseudo-terminal, or 'auto'")
+        ->type_name("DEV|auto");
+    line->add_option("--tcp", options->tcp, "Connect to a socket")->type_name("HOST:PORT");
+    line->require_option(1);
+    command->add_option("--baud", options->baud, "Bits per second (115200)")
+        ->type_name("N")
+        ->check(CLI::Range(50U, 4'000'000U));
+    command->add_flag("--bare", options->bare, "Send as it is, without prefix and checksum");
+    command->add_option("--wait", options->wait_ms, "Quiet time that ends an answer, in ms (500)")
+        ->type_name("MS")
+        ->check(CLI::Range(1U, 3'600'000U));
+    command->add_flag("--json", options->json, "The talk as JSON lines");
+    command->add_option("COMMAND", options->commands, "'M104 S200': framed unless it is already")
+        ->required()
+        ->type_name("");
+    command->callback([options, &exit] { exit = send(*options); });
+}
+
+}  // namespace fauxboard::tools
