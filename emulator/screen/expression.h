@@ -1,0 +1,148 @@
+#pragma once
+
+// The little language of a screen profile: what a button sends, a page shows and a rule asks may depend on
+// the values the screen shows. Everything is compiled when the profile loads; a wrong name, kind or bracket
+// is an error then, with the nearest known name (behaviour::ExpressionError).
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "emulator/behaviour/document.h"
+#include "emulator/screen/values.h"
+
+namespace fauxboard::screen {
+
+/// Which names beyond the declared values an expression may use.
+struct Allowed {
+    bool row = false;    ///< `row`, `row.text`
+    bool input = false;  ///< `input`
+};
+
+/// Arithmetic on numbers: literals, value names, `row`, `input`, + - * / ( ), min(a, b), max(a, b), mod(a,
+/// b), round(a), floor(a). A list is its length. Division by zero gives 0, so that a result is never a trap;
+/// it may be nan or infinite when a frame said so.
+class Expression {
+  public:
+    Expression() = default;
+    /// Throws behaviour::ExpressionError.
+    Expression(std::string_view source, const ValueTable& table, Allowed allowed);
+    static Expression constant(double value);
+
+    double evaluate(const Scope& scope) const;
+
+  private:
+    friend class ExpressionParser;
+    enum class Op : std::uint8_t {
+        constant,
+        value,
+        length,
+        row,
+        input,
+        negate,
+        add,
+        subtract,
+        multiply,
+        divide,
+        minimum,
+        maximum,
+        modulo,
+        round,
+        floor
+    };
+    struct Step {
+        Op op = Op::constant;
+        double number = 0;
+        std::size_t value = 0;
+    };
+    std::vector<Step> steps_;  ///< in reverse Polish order
+};
+
+/// A text with places: "M104 S{nozzle.target+1:.1f}". Behind a colon stands `.Nf` (N decimals, at most 6),
+/// `d` (cut to a whole number) or `name` (the value's word for it); without one a number is written as short
+/// as it goes. A text value, `row.text` included, stands alone between its braces. `{{` and `}}` are braces.
+class Template {
+  public:
+    Template() = default;
+    /// Throws behaviour::ExpressionError.
+    Template(std::string_view source, const ValueTable& table, Allowed allowed);
+
+    std::string render(const Scope& scope) const { return render(scope, false); }
+    /// The same as UTF-8 for a terminal: texts from the wire are made printable, the literals are UTF-8.
+    std::string render_for_people(const Scope& scope) const { return render(scope, true); }
+    /// The source, for people.
+    const std::string& source() const { return source_; }
+    bool empty() const { return source_.empty(); }
+    /// The values it looks at, each once.
+    const std::vector<std::size_t>& values() const { return values_; }
+
+  private:
+    enum class Style : std::uint8_t { literal, fixed, whole, shortest, named, text, row_text };
+    struct Part {
+        Style style = Style::literal;
+        int decimals = 0;
+        std::size_t value = 0;  ///< text and named
+        std::string literal;
+        Expression expression;
+        std::map<std::int64_t, std::string> names;
+    };
+    std::string render(const Scope& scope, bool for_people) const;
+    void add_place(std::string_view inside, const ValueTable& table, Allowed allowed);
+
+    std::string source_;
+    std::vector<Part> parts_;
+    std::vector<std::size_t> values_;
+};
+
+/// One test of a `when` or a `where`.
+class Condition {
+  public:
+    enum class Test : std::uint8_t {
+        equal,
+        not_equal,
+        one_of,
+        range,
+        ends_with,
+        starts_with,
+        ends_not_with,
+        starts_not_with
+    };
+
+    /// `left` is an expression, or the name of a text value; `right` a number, a text, or an object with one
+    /// of not, in, min and max, ends_with, starts_with, ends_not_with, starts_not_with. Numbers may be
+    /// expressions in a text for numeric tests. Throws behaviour::ExpressionError.
+    Condition(std::string_view left, const behaviour::Json& right, const ValueTable& table, Allowed allowed);
+
+    /// Numbers are equal within 0.0005: what the wire's three decimals tell apart.
+    bool holds(const Scope& scope) const;
+    /// The same with its right side evaluated now.
+    Condition frozen(const Scope& scope) const;
+    /// What its left side is now: "1".
+    std::string now(const Scope& scope) const;
+    /// "nozzle.target is 201", "job.status is one of 0, 3".
+    std::string words(const Scope& scope) const;
+
+  private:
+    void set_right(const behaviour::Json& right, const ValueTable& table, Allowed allowed);
+    void set_range(const behaviour::Json& right, const ValueTable& table, Allowed allowed);
+    void add_operand(const behaviour::Json& value, const ValueTable& table, Allowed allowed);
+    bool holds_number(const Scope& scope) const;
+    bool holds_text(std::string_view text) const;
+
+    std::string source_;
+    bool is_text_ = false;
+    bool row_text_ = false;
+    std::size_t value_ = 0;
+    Expression left_;
+    Test test_ = Test::equal;
+    std::vector<Expression> numbers_;
+    std::vector<std::string> texts_;
+    bool has_min_ = false;
+    bool has_max_ = false;
+};
+
+bool all_hold(const std::vector<Condition>& conditions, const Scope& scope);
+
+}  // namespace fauxboard::screen

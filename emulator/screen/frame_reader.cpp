@@ -1,0 +1,294 @@
+#include "emulator/screen/frame_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "emulator/screen/c_numbers.h"
+#include "protocol/framing.h"
+
+namespace fauxboard::screen {
+namespace {
+
+/// Reads the keys of one frame. The place in the text moves on as the firmware's pointer does.
+class KeyReader {
+  public:
+    KeyReader(std::string_view text, const ScreenProfile& profile, std::vector<Shown>& values,
+              Judgement& judgement)
+        : text_(text), profile_(profile), values_(values), judgement_(judgement) {}
+
+    /// False when the rest of the line is not taken.
+    bool read_all(const std::vector<Read>& reads) {
+        return std::all_of(reads.begin(), reads.end(), [this](const Read& read) { return read_one(read); });
+    }
+    void say(Verdict verdict, const std::string& why) {
+        judgement_.verdict = std::max(judgement_.verdict, verdict);
+        if (!why.empty()) {
+            judgement_.why += (judgement_.why.empty() ? "" : "; ") + why;
+        }
+    }
+
+  private:
+    bool read_one(const Read& read) {
+        const std::size_t from = read.from == Read::From::last     ? at_
+                                 : read.from == Read::From::column ? read.column
+                                                                   : 0;
+        const std::size_t hit = from <= text_.size() ? text_.find(read.key, from) : std::string_view::npos;
+        if (hit == std::string_view::npos) {
+            missing(read, from);
+            return true;
+        }
+        at_ = hit + read.key.size();
+        const bool go_on = take(read);
+        if (!read.bug.empty()) {
+            say(Verdict::misread, read.bug);
+        }
+        return go_on && read_all(read.then);
+    }
+
+    bool take(const Read& read) {
+        switch (read.as) {
+            case Read::As::text:
+                return take_text(read);
+            case Read::As::mark:
+                return true;
+            case Read::As::list_start:
+                values_[*read.into].list.clear();
+                carry(read);
+                return true;
+            case Read::As::list_entry:
+                return take_entry(read);
+            default:
+                return take_number(read);
+        }
+    }
+
+    void missing(const Read& read, std::size_t from) {
+        if (from != 0 &&
+            text_.substr(0, std::min(from, text_.size())).find(read.key) != std::string_view::npos &&
+            !belongs_to_another(read.key)) {
+            say(Verdict::part_missed,
+                fmt::format("\"{}\" is looked for behind what was read before, and is not there", read.key));
+        }
+        for (const Read& next : read.then) {
+            const bool telling = next.key.find_first_not_of(" /:") != std::string::npos;
+            if (telling && text_.find(next.key, std::min(at_, text_.size())) != std::string_view::npos) {
+                say(Verdict::part_missed,
+                    fmt::format("without \"{}\" \"{}\" is not looked for", read.key, next.key));
+                return;
+            }
+        }
+    }
+
+    /// A key such as "S" or "R:" stands inside others ("SD:", "FR:"): only a key behind a blank was meant.
+    bool belongs_to_another(const std::string& key) const {
+        return text_.find(' ' + key) == std::string_view::npos && !text_.starts_with(key);
+    }
+
+    bool fail(Read::Bad bad, const std::string& why) {
+        say(bad == Read::Bad::crash       ? Verdict::would_crash
+            : bad == Read::Bad::drop_rest ? Verdict::rest_dropped
+            : bad == Read::Bad::zero      ? Verdict::misread
+                                          : Verdict::cut,
+            why);
+        return bad == Read::Bad::zero || bad == Read::Bad::cut;
+    }
+
+    double number(const Read& read) {
+        if (read.as == Read::As::real) {
+            const ReadReal real = read_real(text_.substr(at_));
+            at_ += real.used;
+            note_no_number(read, real.used);
+            return static_cast<double>(real.value);
+        }
+        const ReadInteger integer = read_integer(text_.substr(at_));
+        at_ += integer.used;
+        note_no_number(read, integer.used);
+        const std::uint32_t bits = static_cast<std::uint32_t>(integer.value);
+        const std::int64_t kept = read.as == Read::As::u8    ? bits & 0xFFU
+                                  : read.as == Read::As::u16 ? bits & 0xFFFFU
+                                                             : std::int64_t{integer.value};
+        if (kept != integer.value) {
+            say(Verdict::misread, fmt::format("\"{}\" {} is taken as {}", read.key, integer.value, kept));
+        }
+        return static_cast<double>(kept);
+    }
+    void note_no_number(const Read& read, std::size_t used) {
+        if (used == 0) {
+            say(Verdict::misread, fmt::format("\"{}\" without a number behind it is taken as 0", read.key));
+        }
+    }
+
+    bool take_number(const Read& read) {
+        double value = number(read);
+        if ((read.min && value < *read.min) || (read.max && value > *read.max)) {
+            const std::string why =
+                read.why.empty() ? fmt::format("\"{}\" {} is out of bounds{}", read.key, short_text(value),
+                                               read.outside == Read::Bad::zero ? " and taken as 0" : "")
+                                 : read.why;
+            if (!fail(read.outside, why)) {
+                return false;
+            }
+            value = 0;
+        }
+        if (read.into) {
+            values_[*read.into].number = value;
+            carry(read);
+        }
+        return true;
+    }
+
+    bool take_text(const Read& read) {
+        std::size_t end = read.until.empty() ? text_.size() : text_.find(read.until, at_);
+        if (end == std::string_view::npos || end < at_ + read.less) {
+            const std::string why =
+                read.why.empty() ? fmt::format("no \"{}\" behind \"{}\"", read.until, read.key) : read.why;
+            if (!fail(read.no_end, why)) {
+                return false;
+            }
+            end = text_.size();
+        }
+        std::string_view text = text_.substr(at_, end - at_);
+        text.remove_suffix(std::min(read.less, text.size()));
+        at_ = end;
+        if (read.max_bytes != 0 && text.size() > read.max_bytes) {
+            if (!fail(read.too_long,
+                      fmt::format("a text of {} characters behind \"{}\", there is room for {}", text.size(),
+                                  read.key, read.max_bytes))) {
+                return false;
+            }
+            text = text.substr(0, read.max_bytes);
+        }
+        if (read.into) {
+            values_[*read.into].text = text;
+            carry(read);
+        }
+        return true;
+    }
+
+    bool take_entry(const Read& read) {
+        const ReadInteger index = read_integer(text_.substr(at_));
+        at_ += index.used;
+        note_no_number(read, index.used);
+        const std::size_t most = profile_.values.at(*read.into).most;
+        if (index.value < 0 || static_cast<std::size_t>(index.value) >= most) {
+            return fail(read.outside, fmt::format("entry {}: the list holds {}", index.value, most));
+        }
+        std::string_view name = text_.substr(std::min(at_ + 1, text_.size()));
+        if (read.max_bytes != 0 && name.size() > read.max_bytes) {
+            fail(Read::Bad::cut,
+                 fmt::format("a name of {} characters, there is room for {}", name.size(), read.max_bytes));
+            name = name.substr(0, read.max_bytes);
+        }
+        auto& list = values_[*read.into].list;
+        const auto slot = static_cast<std::size_t>(index.value);
+        list.resize(std::max(list.size(), slot + 1));
+        list[slot] = name;
+        carry(read);
+        return true;
+    }
+
+    void carry(const Read& read) {
+        const Shown& value = values_[*read.into];
+        judgement_.carried.push_back({*read.into, value.number, value.text});
+    }
+
+    std::string_view text_;
+    const ScreenProfile& profile_;
+    std::vector<Shown>& values_;
+    Judgement& judgement_;
+    std::size_t at_ = 0;
+};
+
+std::string frame_fault(const protocol::Unframed& unframed, std::string_view line) {
+    switch (unframed.fault) {
+        case protocol::FrameFault::none:
+            return "no \"N-0\" before it";
+        case protocol::FrameFault::checksum_missing:
+            return "no checksum";
+        case protocol::FrameFault::checksum_malformed:
+            return "no number behind the star";
+        case protocol::FrameFault::checksum_wrong:
+            break;
+    }
+    const std::string_view covered = line.substr(0, line.rfind('*'));
+    return fmt::format("wrong checksum; expected {}", protocol::xor_checksum(covered));
+}
+
+/// The rule for the line, or null with the reason in `judgement.why`.
+const FrameRule* find_rule(const ScreenProfile& profile, std::string_view text, Judgement& judgement) {
+    for (const FrameRule& rule : profile.words) {
+        if (text.starts_with(rule.name)) {
+            return &rule;
+        }
+    }
+    const std::size_t within = profile.line.code_within;
+    const std::size_t letter = text.substr(0, within).find('L');
+    if (letter == std::string_view::npos) {
+        judgement.why = fmt::format("no L in the first {} characters", within);
+        return nullptr;
+    }
+    const std::int32_t number = read_integer(text.substr(letter + 1)).value;
+    const unsigned code = static_cast<std::uint32_t>(number) & 0xFFU;
+    judgement.frame = fmt::format("L{}", code);
+    const auto hit = profile.codes.find(code);
+    if (hit == profile.codes.end()) {
+        judgement.why = fmt::format("this screen knows no L{}", code);
+        return nullptr;
+    }
+    if (static_cast<std::int64_t>(code) != number) {
+        judgement.verdict = Verdict::misread;
+        judgement.why = fmt::format("L{} is taken as L{}", number, code);
+    }
+    return &hit->second;
+}
+
+std::string no_case(const FrameRule& rule) {
+    std::vector<std::string> wanted;
+    for (const FrameCase& one : rule.cases) {
+        wanted.push_back(fmt::format("\"{}\"", fmt::join(one.has, "\" with \"")));
+    }
+    return fmt::format("{} is taken only with {}", rule.name, fmt::join(wanted, ", or "));
+}
+
+}  // namespace
+
+Taken take_line(const ScreenProfile& profile, std::string_view line, std::vector<Shown>& values) {
+    Taken taken;
+    Judgement& judgement = taken.judgement;
+    judgement.line = line;
+    std::string_view text = line;
+    const auto ignore = [&](const std::string& why) {
+        judgement.verdict = Verdict::ignored;
+        judgement.why += judgement.why.empty() || why.empty() ? why : "; " + why;
+        return taken;
+    };
+    if (profile.line.framed_in) {
+        const auto unframed = protocol::unframe(line, protocol::ChecksumPolicy::required);
+        if (!unframed.prefixed || unframed.fault != protocol::FrameFault::none) {
+            return ignore(frame_fault(unframed, line));
+        }
+        text = unframed.body;
+    }
+    const FrameRule* rule = find_rule(profile, text, judgement);
+    if (rule == nullptr) {
+        return ignore({});
+    }
+    judgement.frame = rule->name;
+    const auto hit = std::find_if(rule->cases.begin(), rule->cases.end(), [&](const FrameCase& one) {
+        return std::all_of(one.has.begin(), one.has.end(), [&](const std::string& word) {
+            return text.find(word) != std::string_view::npos;
+        });
+    });
+    if (hit == rule->cases.end()) {
+        return ignore(no_case(*rule));
+    }
+    if (!hit->ignored.empty()) {
+        return ignore(hit->ignored);
+    }
+    taken.how = &*hit;
+    KeyReader(text, profile, values, judgement).read_all(hit->read);
+    return taken;
+}
+
+}  // namespace fauxboard::screen

@@ -1,0 +1,191 @@
+#include "emulator/screen/navigation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace fauxboard::screen {
+namespace {
+
+constexpr unsigned send_cost = 20;  ///< a way that sends nothing is taken, even if it is longer
+
+/// One edge of the map of pages.
+struct Edge {
+    Step step;
+    std::size_t to = no_page;
+    unsigned cost = 1;
+};
+
+/// The edges from `page`; with `anyway` also those that are not open now.
+std::vector<Edge> edges_from(const Standpoint& at, std::size_t page, bool anyway) {
+    std::vector<Edge> out;
+    Standpoint here{at.profile, at.values, page, page == at.page ? at.before : no_page};
+    for (const std::size_t id : at.profile.pages[page].buttons) {
+        const Button& button = at.profile.buttons[id];
+        const auto row = here.visible(button);
+        if (!row && !anyway) {
+            continue;
+        }
+        const Scope scope = here.scope(button, row.value_or(1));
+        std::vector<std::size_t> ends;
+        if (const auto to = here.destination(button.leads_to, scope)) {
+            ends.push_back(*to);
+        }
+        if (anyway) {
+            for (const Target& target : button.leads_to) {
+                if (target.page != no_page) ends.push_back(target.page);
+            }
+        }
+        for (const std::size_t to : ends) {
+            if (to != no_page && to != page && (anyway || here.shut(to).empty())) {
+                const bool talks = !button.send.empty() || !at.profile.pages[to].send.empty();
+                out.push_back({{id, row.value_or(1)}, to, talks ? send_cost : 1});
+            }
+        }
+    }
+    return out;
+}
+
+bool has_button(const ScreenProfile& profile, std::size_t page, std::size_t button) {
+    const auto& buttons = profile.pages[page].buttons;
+    return std::find(buttons.begin(), buttons.end(), button) != buttons.end();
+}
+
+/// Dijkstra over the pages; there are few, so the nearest is looked for by hand.
+std::optional<std::vector<Step>> walk(const Standpoint& from, std::size_t button, bool anyway) {
+    struct Node {
+        unsigned cost = ~0U;
+        std::size_t came_from = no_page;
+        Step by;
+        bool done = false;
+    };
+    std::vector<Node> nodes(from.profile.pages.size());
+    nodes[from.page].cost = 0;
+    for (;;) {
+        std::size_t best = no_page;
+        for (std::size_t i = 0; i < nodes.size(); ++i) {
+            if (!nodes[i].done && nodes[i].cost != ~0U &&
+                (best == no_page || nodes[i].cost < nodes[best].cost)) {
+                best = i;
+            }
+        }
+        if (best == no_page) {
+            return std::nullopt;
+        }
+        if (has_button(from.profile, best, button)) {
+            std::vector<Step> steps;
+            for (std::size_t at = best; at != from.page; at = nodes[at].came_from) {
+                steps.insert(steps.begin(), nodes[at].by);
+            }
+            return steps;
+        }
+        nodes[best].done = true;
+        for (const Edge& edge : edges_from(from, best, anyway)) {
+            const unsigned cost = nodes[best].cost + edge.cost;
+            if (cost < nodes[edge.to].cost) {
+                nodes[edge.to] = {cost, best, edge.step, false};
+            }
+        }
+    }
+}
+
+}  // namespace
+
+Scope Standpoint::scope(const Button& button, std::size_t row, double input) const {
+    Scope out{values, row, {}, input};
+    if (button.rows && row != 0 && row <= values[*button.rows].list.size()) {
+        out.row_text = values[*button.rows].list[row - 1];
+    }
+    return out;
+}
+
+std::optional<std::size_t> Standpoint::visible(const Button& button, std::size_t row) const {
+    if (!button.rows) {
+        return all_hold(button.when, scope(button, 1)) ? std::optional<std::size_t>(1) : std::nullopt;
+    }
+    const std::size_t last = values[*button.rows].list.size();
+    for (std::size_t i = row == 0 ? 1 : row; i <= (row == 0 ? last : std::min(row, last)); ++i) {
+        if (!values[*button.rows].list[i - 1].empty() && all_hold(button.when, scope(button, i))) {
+            return i;
+        }
+    }
+    return std::nullopt;
+}
+
+std::optional<std::size_t> Standpoint::destination(const std::vector<Target>& targets,
+                                                   const Scope& scope) const {
+    for (const Target& target : targets) {
+        if (all_hold(target.when, scope)) {
+            return target.where == Target::Where::back     ? profile.pages[page].parent
+                   : target.where == Target::Where::before ? before
+                                                           : target.page;
+        }
+    }
+    return std::nullopt;
+}
+
+std::string Standpoint::shut(std::size_t page_id) const {
+    const Scope scope{values, 0, {}, 0};
+    for (const Condition& condition : profile.pages[page_id].open_when) {
+        if (!condition.holds(scope)) {
+            return fmt::format("{} stays shut now; it opens when {}, and it is {}",
+                               profile.pages[page_id].path, condition.words(scope), condition.now(scope));
+        }
+    }
+    return {};
+}
+
+std::string Standpoint::hidden(const Button& button, std::size_t row) const {
+    if (visible(button, row)) {
+        return {};
+    }
+    if (button.rows) {
+        return fmt::format("\"{}\" is not there: no such entry in the list shown", button.path);
+    }
+    const Scope here = scope(button, 1);
+    for (const Condition& condition : button.when) {
+        if (!condition.holds(here)) {
+            return fmt::format("\"{}\" is not there now; it is when {}, and it is {}", button.path,
+                               condition.words(here), condition.now(here));
+        }
+    }
+    return {};
+}
+
+std::optional<std::vector<Step>> find_route(const Standpoint& from, std::size_t button, std::size_t row) {
+    const Button& wanted = from.profile.buttons[button];
+    // Rows are known only once their page is open, so they are looked at there.
+    if (!wanted.rows && !from.visible(wanted, row)) {
+        return std::nullopt;
+    }
+    return walk(from, button, false);
+}
+
+std::string why_no_route(const Standpoint& from, std::size_t button, std::size_t row) {
+    const Button& wanted = from.profile.buttons[button];
+    if (!wanted.rows) {
+        if (std::string why = from.hidden(wanted, row); !why.empty()) {
+            return why;
+        }
+    }
+    std::size_t page = from.page;
+    for (const Step& step : walk(from, button, true).value_or(std::vector<Step>{})) {
+        const Standpoint here{from.profile, from.values, page, from.before};
+        const Button& next = from.profile.buttons[step.button];
+        if (std::string why = here.hidden(next, 0); !why.empty()) {
+            return fmt::format("\"{}\" cannot be reached: {}", wanted.path, why);
+        }
+        page = here.destination(next.leads_to, here.scope(next, 1)).value_or(page);
+        if (std::string why = here.shut(page); !why.empty()) {
+            return fmt::format("\"{}\" cannot be reached: {}", wanted.path, why);
+        }
+    }
+    const Page& own = from.profile.pages[wanted.page == no_page ? from.page : wanted.page];
+    std::string why = fmt::format("\"{}\" cannot be reached by touch now", wanted.path);
+    if (!own.opened_by.empty()) {
+        why += fmt::format(": its page opens by itself, on \"{}\"", own.opened_by.front());
+    }
+    return why;
+}
+
+}  // namespace fauxboard::screen

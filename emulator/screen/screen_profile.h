@@ -1,0 +1,180 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "emulator/behaviour/document.h"
+#include "emulator/printer/sim_time.h"
+#include "emulator/screen/expression.h"
+#include "emulator/screen/values.h"
+
+namespace fauxboard::screen {
+
+using printer::SimTime;
+
+inline constexpr std::size_t no_page = static_cast<std::size_t>(-1);
+
+/// How the screen hears and speaks.
+struct LineRules {
+    bool framed_in =
+        false;  ///< takes frames with a right checksum only; else looks for its codes in any line
+    bool framed_out = false;          ///< sends "N-0 body*XOR"; else bare lines
+    std::size_t buffer_bytes = 1279;  ///< what fits between two looks into the buffer; a longer line is cut
+    SimTime tick{20'000};             ///< it looks into the buffer so often
+    SimTime answer_after{12'000};     ///< an answer leaves no sooner after the line came
+    SimTime deaf{1'200'000};          ///< from power-on; what comes meanwhile is lost
+    std::size_t code_within = 8;      ///< the L must stand in so many first bytes
+    std::string hello;                ///< said once it hears, as it stands, line end included
+};
+
+/// How one key of a frame is read.
+struct Read {
+    enum class As : std::uint8_t { u8, u16, i32, real, text, mark, list_start, list_entry };
+    enum class From : std::uint8_t { last, start, column };
+    enum class Bad : std::uint8_t { drop_rest, crash, zero, cut };
+
+    std::string key;  ///< found as C's strstr does; empty: right here
+    From from = From::last;
+    std::size_t column = 0;
+    As as = As::real;
+    std::optional<std::size_t> into;  ///< value, or list for list_start and list_entry
+    std::optional<double> min;
+    std::optional<double> max;
+    Bad outside = Bad::drop_rest;
+    std::string until;          ///< texts: what ends them; empty: the end of the line
+    std::size_t less = 0;       ///< texts: so many bytes before `until` do not belong to it
+    std::size_t max_bytes = 0;  ///< texts: room; 0 no limit
+    Bad too_long = Bad::cut;
+    Bad no_end = Bad::drop_rest;
+    std::string why;         ///< said when it is outside, too long or without end
+    std::string bug;         ///< said whenever it is read: the screen takes it as something else
+    std::vector<Read> then;  ///< read only if this one was found, from where it ended
+};
+
+/// What a page change leads to. The first target whose conditions hold.
+struct Target {
+    enum class Where : std::uint8_t { page, back, before };
+    std::vector<Condition> when;
+    Where where = Where::page;
+    std::size_t page = no_page;
+};
+
+struct Assign {
+    std::size_t value = 0;
+    Template text;          ///< of a text value
+    Expression expression;  ///< of a number
+};
+
+struct Send {
+    std::vector<Condition> when;
+    Template line;  ///< the body
+};
+
+/// One way to take a frame; the first whose words all stand in the line.
+struct FrameCase {
+    std::vector<std::string> has;
+    std::string ignored;  ///< not empty: known and of no effect, and why
+    std::vector<Read> read;
+    std::vector<Target> opens;
+    std::vector<Send> answer;
+    bool restarts = false;
+};
+
+struct FrameRule {
+    std::string name;   ///< "L3", or the words a line without code starts with
+    std::string title;  ///< "temperatures"
+    std::vector<FrameCase> cases;
+};
+
+/// One frame or line that must come back.
+struct Expectation {
+    std::string frame;              ///< "L24"; empty: `line` counts
+    std::string line;               ///< how a line must start, frame taken off
+    std::vector<std::size_t> with;  ///< values it must carry
+    std::vector<Condition> where;   ///< what those values must be
+    SimTime within{500'000};
+};
+
+/// One step of the tour before it touches a button.
+struct Prepare {
+    enum class Kind : std::uint8_t { press, receive, wait_for, wait };
+    Kind kind = Kind::press;
+    std::vector<Condition> when;  ///< else the step is left out
+    std::string text;             ///< press: a path; receive: the body of a frame shown to the screen
+    std::vector<Condition> until;
+    SimTime limit{0};
+};
+
+/// A number that a person types in.
+struct Input {
+    double normally = 0;
+    double min = 0;
+    double max = 0;
+};
+
+struct Button {
+    std::string path;            ///< "Control/Move/X+ (30mm)"
+    std::string name;            ///< "X+ (30mm)"
+    Template label;              ///< what stands on it
+    std::size_t page = no_page;  ///< no_page: stands on every page that does not leave it out
+    std::vector<Condition> when;
+    std::vector<Assign> assume;  ///< what the screen takes for granted from then on, before it sends
+    std::vector<Send> send;
+    std::vector<Target> leads_to;
+    std::vector<Expectation> expect;  ///< empty: silence
+    std::vector<Prepare> prepare;
+    SimTime settle{0};  ///< the machine is busy so long after the last expectation
+    std::optional<Input> input;
+    std::optional<std::size_t> rows;  ///< stands once per entry of this list
+};
+
+struct Page {
+    std::string path;  ///< "Control/Move"
+    std::string title;
+    std::size_t parent = no_page;
+    std::vector<Template> shows;
+    std::vector<std::size_t> buttons;    ///< in the order of the profile, those of every page last
+    std::vector<Condition> open_when;    ///< else it stays shut
+    std::vector<Assign> assume;          ///< on opening
+    std::vector<Send> send;              ///< on opening
+    std::vector<Expectation> expect;     ///< what must come back then
+    bool stays = false;                  ///< does not fall back when nobody touches it
+    std::vector<std::string> opened_by;  ///< bodies of frames that open it, for the tour
+};
+
+/// A screen, checked and compiled. Immutable; many screens may share it.
+class ScreenProfile {
+  public:
+    std::string name;
+    std::string title;
+    std::vector<std::string> files;    ///< what it was read from, base first
+    std::vector<std::string> assumed;  ///< what no source says, a sentence each
+    LineRules line;
+    ValueTable values;
+    std::map<unsigned, FrameRule> codes;  ///< L codes
+    std::vector<FrameRule> words;         ///< lines without one
+    std::vector<Page> pages;
+    std::vector<Button> buttons;  ///< in the order in which the tour presses them
+    std::size_t main_page = 0;
+    SimTime idle{15'000'000};  ///< without a touch for so long, most pages fall back
+    std::vector<Target> idle_target;
+    SimTime silence{500'000};          ///< so long the tour listens where nothing must come
+    std::vector<Prepare> tour_first;   ///< before the first button
+    std::vector<std::string> unasked;  ///< frames and lines the board sends by itself
+
+    std::optional<std::size_t> find_page(std::string_view path) const;
+    /// The names of the frames that set this value: "L2, L6".
+    std::string sources(std::size_t value) const;
+};
+
+/// Checks and compiles a screen profile. Throws behaviour::ProfileError with everything that is wrong.
+std::shared_ptr<const ScreenProfile> load_screen(const behaviour::SourceText& source,
+                                                 const behaviour::SourceFinder& find);
+
+}  // namespace fauxboard::screen

@@ -1,0 +1,156 @@
+#include "emulator/screen/tour_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "emulator/behaviour/document.h"
+#include "emulator/behaviour/wire_text.h"
+
+namespace fauxboard::screen {
+
+using behaviour::Json;
+
+namespace {
+
+std::size_t count(std::span<const TourResult> results, TourVerdict verdict) {
+    return static_cast<std::size_t>(std::count_if(
+        results.begin(), results.end(), [&](const TourResult& result) { return result.verdict == verdict; }));
+}
+
+std::string joined(const std::vector<std::string>& lines, std::size_t most) {
+    std::string out = printable(fmt::format("{}", fmt::join(lines, " | ")));
+    if (out.empty()) {
+        return "-";
+    }
+    std::size_t columns = 0;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        const bool starts = (static_cast<unsigned char>(out[i]) & 0xC0U) != 0x80U;
+        if (starts && ++columns > most) {
+            return out.substr(0, i) + "...";
+        }
+    }
+    return out;
+}
+
+Json utf8(const std::vector<std::string>& lines) {
+    Json out = Json::array();
+    for (const std::string& line : lines) {
+        out.push_back(behaviour::from_wire(line));
+    }
+    return out;
+}
+
+/// Text for an attribute or an element. printable() has left no control byte in it.
+std::string xml(std::string_view text) {
+    std::string out;
+    for (const char c : text) {
+        switch (c) {
+            case '&':
+                out += "&amp;";
+                break;
+            case '<':
+                out += "&lt;";
+                break;
+            case '>':
+                out += "&gt;";
+                break;
+            case '"':
+                out += "&quot;";
+                break;
+            default:
+                out += static_cast<unsigned char>(c) < 0x20 && c != '\n' ? ' ' : c;
+        }
+    }
+    return out;
+}
+
+std::string class_name(std::string_view screen, std::string_view button) {
+    const std::size_t slash = button.rfind('/');
+    return fmt::format("{}.{}", screen, slash == std::string_view::npos ? "Main" : button.substr(0, slash));
+}
+
+}  // namespace
+
+std::string tour_table(std::span<const TourResult> results) {
+    std::size_t widest = 6;
+    for (const TourResult& result : results) {
+        widest = std::max(widest, result.button.size());
+    }
+    std::string out = fmt::format("{:<{}}  {:<11}  {:>8}  {:<36}  {}\n", "Button", widest, "Verdict", "Took",
+                                  "Sent", "Came");
+    for (const TourResult& result : results) {
+        out += fmt::format("{:<{}}  {:<11}  {:>6.2f} s  {:<36}  {}\n", result.button, widest,
+                           tour_verdict_words(result.verdict), printer::to_seconds(result.took),
+                           joined(result.sent, 33), joined(result.came, 60));
+    }
+    out += fmt::format("\n{} buttons: {} met, {} not met, {} not pressed\n", results.size(),
+                       count(results, TourVerdict::met), count(results, TourVerdict::not_met),
+                       count(results, TourVerdict::not_pressed));
+    for (const TourResult& result : results) {
+        if (result.verdict != TourVerdict::met) {
+            out += result.sentence + '\n';
+        }
+    }
+    return out;
+}
+
+std::string tour_json(std::string_view screen, std::span<const TourResult> results) {
+    Json root;
+    root["screen"] = screen;
+    root["passed"] = count(results, TourVerdict::met) == results.size();
+    root["buttons"] = results.size();
+    for (const TourVerdict verdict : {TourVerdict::met, TourVerdict::not_met, TourVerdict::not_pressed}) {
+        std::string key(tour_verdict_words(verdict));
+        std::replace(key.begin(), key.end(), ' ', '_');
+        root[key] = count(results, verdict);
+    }
+    root["results"] = Json::array();
+    for (const TourResult& result : results) {
+        Json one;
+        one["button"] = result.button;
+        one["verdict"] = tour_verdict_words(result.verdict);
+        one["sent"] = utf8(result.sent);
+        one["expected"] = result.expected;
+        one["came"] = utf8(result.came);
+        one["at_s"] = printer::to_seconds(result.at);
+        one["took_s"] = printer::to_seconds(result.took);
+        one["sentence"] = result.sentence;
+        root["results"].push_back(std::move(one));
+    }
+    return root.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+std::string tour_junit(std::string_view screen, std::span<const TourResult> results) {
+    double total = 0;
+    for (const TourResult& result : results) {
+        total += printer::to_seconds(result.took);
+    }
+    const std::size_t failed = results.size() - count(results, TourVerdict::met);
+    std::string out = fmt::format(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n"
+        "<testsuite name=\"tour of {}\" tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"0\" "
+        "time=\"{:.3f}\">\n",
+        xml(screen), results.size(), failed, total);
+    for (const TourResult& result : results) {
+        out += fmt::format("  <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\">",
+                           xml(class_name(screen, result.button)), xml(result.button),
+                           printer::to_seconds(result.took));
+        if (result.verdict != TourVerdict::met) {
+            out += fmt::format("\n    <failure type=\"{}\" message=\"{}\"/>\n  ",
+                               tour_verdict_words(result.verdict), xml(result.sentence));
+        }
+        out += "</testcase>\n";
+    }
+    return out + "</testsuite>\n</testsuites>\n";
+}
+
+std::string findings_text(std::span<const Finding> findings) {
+    std::string out;
+    for (const Finding& finding : findings) {
+        out += fmt::format("{} x  {}\n", finding.times, finding.first.sentence());
+    }
+    return out;
+}
+
+}  // namespace fauxboard::screen

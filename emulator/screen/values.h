@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fauxboard::screen {
+
+enum class ValueKind : std::uint8_t { number, text, list };
+
+/// One thing a screen knows and may show, as its profile declares it: "nozzle.target".
+struct ValueInfo {
+    std::string name;
+    ValueKind kind = ValueKind::number;
+    std::string unit;                           ///< for people; may be empty
+    std::string help;                           ///< one sentence; may be empty
+    double start = 0;                           ///< at power-on
+    std::string start_text;                     ///< the same for texts
+    std::map<std::int64_t, std::string> names;  ///< words for whole numbers; may be empty
+    std::size_t most = 0;                       ///< lists: entries it holds at most
+};
+
+/// The values of one screen, in the order of the declarations.
+struct Shown {
+    double number = 0;  ///< of a list: nothing; its length is its number
+    std::string text;
+    std::vector<std::string> list;
+};
+
+/// All declarations of a profile. A value is known by its index from then on.
+class ValueTable {
+  public:
+    /// False when the name is taken.
+    bool add(ValueInfo info);
+    std::optional<std::size_t> find(std::string_view name) const;
+    const ValueInfo& at(std::size_t id) const { return infos_[id]; }
+    std::size_t size() const { return infos_.size(); }
+    /// The declared name most like a wrong one, or "".
+    std::string nearest(std::string_view name) const;
+    /// What a screen that was just switched on knows.
+    std::vector<Shown> power_on() const;
+
+  private:
+    std::vector<ValueInfo> infos_;
+    std::map<std::string, std::size_t, std::less<>> ids_;
+};
+
+/// What an expression sees while it is evaluated.
+struct Scope {
+    std::span<const Shown> values;
+    std::size_t row = 0;        ///< of a button that stands once per entry of a list: 1 is the first
+    std::string_view row_text;  ///< that entry
+    double input = 0;           ///< the number a person typed in
+};
+
+/// The number as the screens print it: `decimals` digits, never "-0.00".
+std::string fixed_text(double value, int decimals);
+/// Bytes of the line as UTF-8 that a terminal can be trusted with: control bytes come out as \xHH.
+std::string printable(std::string_view bytes);
+/// The shortest text with at most 3 decimals: 30 is "30", 0.5 is "0.5".
+std::string short_text(double value);
+
+}  // namespace fauxboard::screen
