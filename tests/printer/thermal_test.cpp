@@ -299,10 +299,12 @@ TEST_CASE("thermal: a watched channel that moves by 1.0 or more asks for a repor
     CHECK_FALSE(thermal.moved_since_report());
     thermal.set_temperature(HeaterId::bed, 23.0);
     thermal.advance(from_seconds(1.2));
-    CHECK(thermal.moved_since_report());
+    CHECK_FALSE(thermal.moved_since_report());  // it is told one measurement later
     thermal.set_temperature(HeaterId::bed, 22.0);
     thermal.advance(from_seconds(1.5));
     CHECK(thermal.moved_since_report());
+    thermal.advance(from_seconds(1.8));
+    CHECK_FALSE(thermal.moved_since_report());  // and forgotten when it was over before the slot came
 }
 
 TEST_CASE("thermal: a dead time that is no multiple of the period is exact") {

@@ -1,0 +1,84 @@
+#pragma once
+
+// A machine to try actions on, and the rows of the tests that do.
+
+#include <doctest/doctest.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "emulator/behaviour/actions.h"
+#include "emulator/behaviour/fields.h"
+#include "emulator/behaviour/rule_compiler.h"
+#include "tests/support/small_profile.h"
+
+namespace fauxboard::testing {
+
+using namespace fauxboard::behaviour;
+using printer::EventId;
+using std::string;
+
+struct Bench final : NoticeSink {
+    std::shared_ptr<const Profile> profile = small_profile();
+    printer::Printer machine{profile->machine, {}, 1};
+    std::vector<double> variables{profile->variables[0].initial};
+    std::vector<string> notices;
+    bool reset = false;
+    printer::SimTime now{0};
+
+    Bench() {
+        machine.power_on(now);
+        machine.factory_image = machine.eeprom_image = "settings.steps.x 80\nsettings.steps.y 80\n";
+        pass(1);
+    }
+    void notice(Level, std::string_view text) override { notices.emplace_back(text); }
+
+    /// Does what stands in a rule's "do", as if `request` had come.
+    void run(const string& todo, const string& request = "M1") {
+        Document document;
+        Findings findings{document, {}};
+        Names names;
+        names.variables.emplace("count", 0);
+        names.request = true;
+        RuleCompiler compiler(findings, names, {}, *profile->machine);
+        const auto calls = compiler.actions(Json::parse(todo), "");
+        for (const Problem& problem : findings.problems) {
+            FAIL_CHECK(todo << ": " << problem.sentence());
+        }
+        const auto command = protocol::parse_command(request);
+        ActionContext context{machine, variables, *this};
+        for (const ActionCall& call : calls) {
+            run_action(call, {machine, variables, &*command, nullptr, 0}, profile->variables, context);
+        }
+        reset = context.reset;
+    }
+    void pass(double seconds) {
+        now += printer::from_seconds(seconds);
+        machine.advance(now);
+    }
+    double number(std::string_view path) const { return find_field(path)->get(machine).number; }
+    string text(std::string_view path) const { return string(find_field(path)->get(machine).text); }
+    bool raised(EventId id) {
+        bool found = false;
+        while (const auto event = machine.events.take()) {
+            found = found || *event == id;
+        }
+        return found;
+    }
+    void heat(double c) { machine.thermal.set_temperature(printer::HeaterId::nozzle, c); }
+    void print() {
+        run(R"([{"job.select": {"name": "a.gcode"}}, "job.start"])");
+        machine.events.clear();
+    }
+};
+
+struct ActionRow {
+    const char* action;
+    std::function<void(Bench&)> check;
+};
+
+const std::vector<ActionRow>& machine_action_rows();
+const std::vector<ActionRow>& device_action_rows();
+
+}  // namespace fauxboard::testing

@@ -1,0 +1,181 @@
+// What each action of leveling, card, job, EEPROM and the board itself does.
+
+#include "tests/behaviour/action_bench.h"
+
+namespace fauxboard::testing {
+
+const std::vector<ActionRow>& device_action_rows() {
+    static const std::vector<ActionRow> rows{
+        {"leveling.enter",
+         [](Bench& b) {
+             b.run(R"("leveling.enter")");
+             CHECK(b.number("leveling.manual") == 1);
+             b.pass(5);
+             CHECK(b.number("position.z") == 8);
+         }},
+        {"leveling.adjust",
+         [](Bench& b) {
+             b.run(R"({"leveling.adjust": {"mm": -0.5}})");
+             CHECK(b.number("leveling.manual_z") == 7.5);
+             CHECK(b.number("position.z") == -0.5);
+             b.run(R"({"leveling.adjust": {"mm": 1e9}})");
+             CHECK(b.number("leveling.manual_z") == 500);
+         }},
+        {"card.insert",
+         [](Bench& b) {
+             b.run(R"(["card.remove", "card.insert"])");
+             CHECK(b.number("card.usable") == 1);
+             CHECK(b.raised(EventId::card_inserted));
+         }},
+        {"card.remove",
+         [](Bench& b) {
+             b.run(R"("card.remove")");
+             CHECK(b.number("card.code") == 1);
+             CHECK(b.raised(EventId::card_removed));
+         }},
+        {"card.mount",
+         [](Bench& b) {
+             b.run(R"(["card.release", "card.mount"])");
+             CHECK(b.number("card.code") == 0);
+             b.run(R"(["card.remove", "card.mount"])");
+             CHECK(b.number("card.code") == 1);  // there is none in the slot
+         }},
+        {"card.release",
+         [](Bench& b) {
+             b.run(R"("card.release")");
+             CHECK(b.number("card.code") == 1);
+             CHECK_FALSE(b.raised(EventId::card_removed));
+         }},
+        {"card.choose",
+         [](Bench& b) {
+             b.run(R"({"card.choose": {"disk": 1}})");
+             CHECK(b.number("card.chosen") == 1);
+             b.run(R"({"card.choose": {"disk": 2}})");
+             CHECK(b.number("card.chosen") == 1);
+             CHECK(b.notices.size() == 1);
+         }},
+        {"card.enter",
+         [](Bench& b) {
+             b.run(R"({"card.enter": {"name": "{arg}"}})", "M20 file:SD1:/sub");
+             CHECK(b.text("card.folder") == "sub");
+             b.run(R"({"card.enter": {"name": "../.."}})");
+             CHECK(b.text("card.folder") == "sub");
+             CHECK(b.notices.size() == 1);
+         }},
+        {"card.root",
+         [](Bench& b) {
+             b.run(R"([{"card.enter": {"name": "sub"}}, "card.root"])");
+             CHECK(b.text("card.folder").empty());
+         }},
+        {"job.select",
+         [](Bench& b) {
+             b.run(R"({"job.select": {"name": "a.gcode"}})");
+             CHECK(b.raised(EventId::file_selected));
+             CHECK(b.text("job.path") == "a.gcode");
+             b.run(R"({"job.select": {"name": "b.gcode"}})");
+             CHECK(b.raised(EventId::file_missing));
+             b.run(R"({"job.select": {"name": "sub"}})");
+             CHECK(b.raised(EventId::file_unreadable));
+         }},
+        {"job.start",
+         [](Bench& b) {
+             b.run(R"("job.start")");
+             CHECK(b.notices.size() == 1);
+             b.run(R"([{"job.select": {"name": "a.gcode"}}, "job.start"])");
+             CHECK(b.raised(EventId::job_started));
+             CHECK(b.number("job.status") == 1);
+         }},
+        {"job.pause",
+         [](Bench& b) {
+             b.print();
+             b.run(R"("job.pause")");
+             CHECK(b.number("job.pausing") == 1);
+             b.run(R"("job.pause")");
+             CHECK(b.raised(EventId::job_pausing));
+             b.pass(10);
+             CHECK(b.raised(EventId::job_paused));
+             CHECK(b.number("job.status") == 2);
+             b.run(R"("job.start")");
+             CHECK(b.raised(EventId::job_resumed));
+         }},
+        {"job.stop",
+         [](Bench& b) {
+             b.print();
+             b.run(R"([{"heater.target": {"heater": "bed", "c": 60}}, "job.stop"])");
+             CHECK(b.raised(EventId::job_stopped));
+             CHECK(b.number("job.status") == 0);
+             CHECK(b.number("heaters.bed.target") == 0);
+         }},
+        {"job.finish",
+         [](Bench& b) {
+             b.print();
+             b.run(R"("job.finish")");
+             CHECK(b.raised(EventId::job_finished));
+             CHECK(b.number("job.progress") == 100);
+         }},
+        {"job.seek",
+         [](Bench& b) {
+             b.print();
+             b.run(R"({"job.seek": {"byte": 2}})");
+             CHECK(b.number("job.byte") == 2);
+         }},
+        {"eeprom.save",
+         [](Bench& b) {
+             b.run(R"([{"set": {"settings.steps.x": 99}}, {"eeprom.save": {"fields": "settings."}}])");
+             CHECK(b.machine.eeprom_image.text().find("settings.steps.x 99\n") != string::npos);
+             CHECK(b.machine.eeprom_image.text().find("addons.sound") == string::npos);
+         }},
+        {"eeprom.load",
+         [](Bench& b) {
+             b.run(R"([{"set": {"settings.steps.x": 99, "settings.steps.y": 98}},
+                       {"eeprom.load": {"fields": "settings.steps.x"}}])");
+             CHECK(b.number("settings.steps.x") == 80);
+             CHECK(b.number("settings.steps.y") == 98);
+         }},
+        {"eeprom.defaults",
+         [](Bench& b) {
+             b.machine.eeprom_image = "settings.steps.x 5\n";
+             b.run(R"([{"set": {"settings.steps.x": 99}}, "eeprom.defaults"])");
+             CHECK(b.number("settings.steps.x") == 80);
+             CHECK(b.machine.eeprom_image.text() == "settings.steps.x 5\n");
+         }},
+        {"stepper.select",
+         [](Bench& b) {
+             b.run(R"({"stepper.select": {"motor": 3}})");
+             CHECK(b.number("stepper.selected") == 3);
+             b.run(R"({"stepper.select": {"motor": 4}})");
+             CHECK(b.number("stepper.selected") == 3);
+             CHECK(b.notices.size() == 1);
+         }},
+        {"machine.stop",
+         [](Bench& b) {
+             b.print();
+             b.run(
+                 R"([{"heater.target": {"heater": "bed", "c": 60}}, {"motion.move": {"x": 100}}, "machine.stop"])");
+             CHECK(b.number("job.status") == 0);
+             CHECK(b.number("heaters.bed.target") == 0);
+             CHECK(b.number("motors.enabled") == 0);
+             CHECK(b.number("motion.busy") == 0);
+         }},
+        {"board.stall",
+         [](Bench& b) {
+             b.run(R"({"board.stall": {"ms": 40}})");
+             CHECK(b.machine.take_stall() == printer::SimTime{40000});
+             CHECK(b.machine.take_stall() == printer::SimTime{0});
+             for (int i = 0; i < 100; ++i) {
+                 b.run(R"({"board.stall": {"ms": 40, "most_ms": 150}})");
+                 const auto stall = b.machine.take_stall();
+                 CHECK(stall >= printer::SimTime{40000});
+                 CHECK(stall <= printer::SimTime{150000});
+             }
+         }},
+        {"board.reset",
+         [](Bench& b) {
+             b.run(R"("board.reset")");
+             CHECK(b.reset);
+         }},
+    };
+    return rows;
+}
+
+}  // namespace fauxboard::testing

@@ -1,0 +1,180 @@
+// The table of fields: every row of it.
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+#include <string>
+
+#include "emulator/behaviour/fields.h"
+#include "tests/support/small_profile.h"
+
+using namespace fauxboard;
+using namespace fauxboard::behaviour;
+using std::string;
+
+namespace {
+
+struct Bench {
+    printer::Printer machine{fauxboard::testing::small_profile()->machine, {}, 1};
+    Bench() { machine.power_on(printer::SimTime{0}); }
+    double number(std::string_view path) { return find_field(path)->get(machine).number; }
+};
+
+/// What a number field shows after `wanted` was set: integers round, booleans are 0 or 1.
+double shown(const Field& field, double wanted) {
+    return field.type == FieldType::integer   ? static_cast<double>(std::lround(wanted))
+           : field.type == FieldType::boolean ? (wanted != 0 ? 1 : 0)
+                                              : wanted;
+}
+
+/// The machine has limits of its own that are narrower than the field's bounds.
+bool clamped_by_machine(const Field& field) {
+    return field.path.ends_with(".target") && field.path.starts_with("heaters.");
+}
+
+}  // namespace
+
+TEST_CASE("fields: paths are unique, well formed, and found by their name") {
+    std::set<std::string_view> paths;
+    for (const Field& field : fields()) {
+        CAPTURE(field.path);
+        CHECK(paths.insert(field.path).second);
+        CHECK(find_field(field.path) == &field);
+        CHECK(field.path.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_.") == string::npos);
+        CHECK(field.path.find('.') != string::npos);
+        CHECK_FALSE(field.help.empty());
+        CHECK_FALSE(type_name(field.type).empty());
+        CHECK(nearest_field(field.path) == field.path);
+    }
+    CHECK(paths.size() > 100);
+    CHECK(find_field("no.such") == nullptr);
+}
+
+TEST_CASE("fields: what is stored can be set, and bounds are in order") {
+    for (const Field& field : fields()) {
+        CAPTURE(field.path);
+        if (field.stored) {
+            const bool settable = field.set != nullptr;
+            CHECK(settable);
+        }
+        if (field.set != nullptr) {
+            CHECK(field.min < field.max);
+        }
+        if (field.type == FieldType::boolean && field.set != nullptr) {
+            CHECK(field.min == 0);
+            CHECK(field.max == 1);
+        }
+    }
+}
+
+TEST_CASE("fields: every value has the kind its type says, from the first moment on") {
+    Bench bench;
+    for (const Field& field : fields()) {
+        CAPTURE(field.path);
+        const Value value = field.get(bench.machine);
+        CHECK(value.is_text() == (field.type == FieldType::text));
+        if (value.is_number()) {
+            CHECK(std::isfinite(value.number));
+        }
+        if (field.type == FieldType::integer || field.type == FieldType::boolean) {
+            CHECK(value.number == std::floor(value.number));
+        }
+    }
+}
+
+TEST_CASE("fields: every settable number keeps what lies within its bounds and clamps what does not") {
+    for (const Field& field : fields()) {
+        if (field.set == nullptr || field.type == FieldType::text || clamped_by_machine(field)) {
+            continue;
+        }
+        CAPTURE(field.path);
+        const double middle = field.min + (field.max - field.min) * 0.37;
+        for (const double wanted : {field.min, middle, field.max}) {
+            Bench bench;
+            CHECK(set_field(bench.machine, field, Value::of(wanted)) == SetResult::done);
+            CHECK(field.get(bench.machine).number == doctest::Approx(shown(field, wanted)));
+        }
+        for (const auto& [wanted, kept] :
+             {std::pair{field.min - 1, field.min}, std::pair{field.max + 1, field.max},
+              std::pair{-1e300, field.min}, std::pair{1e300, field.max}}) {
+            Bench bench;
+            CHECK(set_field(bench.machine, field, Value::of(wanted)) == SetResult::clamped);
+            CHECK(field.get(bench.machine).number == doctest::Approx(shown(field, kept)));
+        }
+    }
+}
+
+TEST_CASE("fields: a number field refuses what is no number, and keeps its value") {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    for (const Field& field : fields()) {
+        if (field.set == nullptr || field.type == FieldType::text) {
+            continue;
+        }
+        CAPTURE(field.path);
+        Bench bench;
+        const Value before = field.get(bench.machine);
+        for (const Value& wrong : {Value::of(std::nan("")), Value::of(infinity), Value::of(-infinity),
+                                   Value::of(std::string_view{"5"}), Value{}}) {
+            CHECK(set_field(bench.machine, field, wrong) == SetResult::refused);
+            CHECK(field.get(bench.machine) == before);
+        }
+    }
+}
+
+TEST_CASE("fields: every settable text keeps what fits and cuts what does not") {
+    int texts = 0;
+    for (const Field& field : fields()) {
+        if (field.set == nullptr || field.type != FieldType::text) {
+            continue;
+        }
+        ++texts;
+        CAPTURE(field.path);
+        Bench bench;
+        const auto room = static_cast<std::size_t>(field.max);
+        const string fits(room, 'a');
+        CHECK(set_field(bench.machine, field, Value::of(std::string_view{fits})) == SetResult::done);
+        CHECK(field.get(bench.machine).text == fits);
+        const string longer(room + 1, 'b');
+        CHECK(set_field(bench.machine, field, Value::of(std::string_view{longer})) == SetResult::clamped);
+        CHECK(field.get(bench.machine).text == string(room, 'b'));
+        CHECK(set_field(bench.machine, field, Value::of(std::string_view{""})) == SetResult::done);
+        CHECK(field.get(bench.machine).text.empty());
+        CHECK(set_field(bench.machine, field, Value::of(5.0)) == SetResult::refused);
+    }
+    CHECK(texts >= 5);
+}
+
+TEST_CASE("fields: what can only be read refuses every value") {
+    Bench bench;
+    for (const Field& field : fields()) {
+        if (field.set == nullptr) {
+            CAPTURE(field.path);
+            CHECK(set_field(bench.machine, field, Value::of(1.0)) == SetResult::refused);
+            CHECK(set_field(bench.machine, field, Value::of(std::string_view{"x"})) == SetResult::refused);
+        }
+    }
+}
+
+TEST_CASE("fields: a heater's target is kept below the machine's own limit") {
+    Bench bench;
+    set_field(bench.machine, *find_field("heaters.nozzle.target"), Value::of(900.0));
+    CHECK(bench.number("heaters.nozzle.target") == 250);
+    CHECK(bench.number("heaters.nozzle.on") == 1);
+    set_field(bench.machine, *find_field("heaters.nozzle.target"), Value::of(0.0));
+    CHECK(bench.number("heaters.nozzle.on") == 0);
+}
+
+TEST_CASE("fields: the stepper fields speak of the driver selected") {
+    Bench bench;
+    const auto set = [&](const char* path, double value) {
+        set_field(bench.machine, *find_field(path), Value::of(value));
+    };
+    set("stepper.microsteps", 32);
+    set("stepper.selected", 2);
+    CHECK(bench.number("stepper.microsteps") == 16);
+    set("stepper.microsteps", 64);
+    set("stepper.selected", 0);
+    CHECK(bench.number("stepper.microsteps") == 32);
+}

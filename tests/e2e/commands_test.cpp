@@ -1,0 +1,112 @@
+// Exit codes, sentences and the small commands.
+
+#include "tests/e2e/program.h"
+
+namespace fauxboard::e2e {
+namespace {
+
+constexpr int usage = 2;
+constexpr int bad_input = 3;
+constexpr int no_port = 4;
+constexpr int timed_out = 5;
+
+struct Wrong {
+    Args args;
+    int code;
+    std::string says;
+};
+
+TEST_CASE("each mistake has its exit code and its sentence, and says nothing on stdout") {
+    const std::vector<Wrong> mistakes{
+        {{}, usage, "subcommand"},
+        {{"frobnicate"}, usage, "there is no command 'frobnicate'"},
+        {{"rum"}, usage, "did you mean 'run'?"},
+        {{"run", "--frobnicate"}, usage, "--frobnicate"},
+        {{"run", "extra"}, usage, "extra"},
+        {{"run", "--speed", "0"}, usage, "expected a number"},
+        {{"run", "--duration", "5parsec"}, usage, "5min"},
+        {{"run", "--seed", "-1"}, usage, "--seed"},
+        {{"run", "--baud", "0"}, usage, "--baud"},
+        {{"run", "--pty", "--tcp", ":0"}, usage, "excludes"},
+        {{"run", "--port", "auto", "--tcp", ":0"}, usage, "excludes"},
+        {{"run", "-v", "-q"}, usage, "excludes"},
+        {{"run", "--profile", "geeetech-a30x"}, bad_input, "did you mean \"geeetech-a30"},
+        {{"run", "--profile", "/missing.json"}, bad_input, "/missing.json"},
+        {{"run", "--profile", "/etc/passwd"}, bad_input, "not JSON"},
+        {{"run", "--sd", "/missing"}, bad_input, "cannot be the SD card"},
+        {{"run", "--eeprom", "/missing/eeprom"}, bad_input, "cannot be written"},
+        {{"run", "--record", "/missing/talk"}, bad_input, "cannot be written"},
+        {{"run", "--port", "/dev/ttyMISSING"}, no_port, "/dev/ttyMISSING"},
+        {{"run", "--tcp", "nonsense"}, no_port, "nonsense"},
+        {{"run", "--pty=/etc/passwd"}, no_port, "/etc/passwd"},
+        {{"run", "--pty=/missing/name"}, no_port, "/missing/name"},
+        {{"send", "M105"}, usage, "--port"},
+        {{"send", "--port", "/dev/ttyMISSING"}, usage, "COMMAND"},
+        {{"send", "--port", "/dev/ttyMISSING", "--tcp", ":1", "M105"}, usage, "--tcp"},
+        {{"send", "--port", "/dev/ttyMISSING", "M104", "S200"}, usage, "quote"},
+        {{"send", "--port", "/dev/ttyMISSING", "M105"}, no_port, "/dev/ttyMISSING"},
+        {{"send", "--port", "/dev/ttyMISSING", "--wait", "0", "M105"}, usage, "--wait"},
+    };
+    for (const Wrong& wrong : mistakes) {
+        const Result result = run(wrong.args);
+        std::string words;
+        for (const std::string& arg : wrong.args)
+            words += arg + ' ';
+        CAPTURE(words);
+        CAPTURE(result.errors);
+        CHECK(result.code == wrong.code);
+        CHECK(result.out.empty());
+        CHECK(contains(result.errors, wrong.says));
+    }
+}
+
+TEST_CASE("help says what it is, and that it is no printer") {
+    const Result help = run({"--help"});
+    CHECK(help.code == 0);
+    for (const char* part : {"not a printer", "run", "send", "profiles", "Examples:", "Exit codes:"}) {
+        CAPTURE(std::string(part));
+        CHECK(contains(help.out, part));
+    }
+    CHECK(contains(run({"run", "--help"}).out, "--duration"));
+    CHECK(run({"--version"}).out.starts_with("fauxboard "));
+}
+
+TEST_CASE("lists, for people and for programs") {
+    CHECK(contains(run({"profiles"}).out, "geeetech-a30t"));
+    const auto profiles = nlohmann::json::parse(run({"profiles", "--json"}).out);
+    REQUIRE(profiles.is_array());
+    CHECK(std::any_of(profiles.begin(), profiles.end(),
+                      [](const auto& p) { return p["name"] == "geeetech-a30"; }));
+    CHECK(run({"ports"}).code == 0);
+    CHECK(nlohmann::json::parse(run({"ports", "--json"}).out).is_array());
+}
+
+/// A frame without its line end.
+std::string line(std::string_view body) {
+    std::string text = frame(body);
+    return text.substr(0, text.size() - 2);
+}
+
+TEST_CASE("send frames, shows what comes back, and knows when nothing does") {
+    Program board({"run", "--no-pacing", "-q"});
+    const std::string path = board.ready()["path"];
+    const Result talk = run({"send", "--port", path, "--wait", "200", "M104 S222", line("M140 S55")});
+    CHECK(talk.code == 0);
+    CHECK(contains(talk.out, "N-0 M104 S222*"));
+    CHECK(contains(talk.out, "/222.0"));
+    CHECK(contains(talk.out, "/55.0"));
+    const Result json = run({"send", "--port", path, "--wait", "200", "--json", "M105"});
+    CHECK(json.code == 0);
+    CHECK(nlohmann::json::parse(json.out.substr(0, json.out.find('\n')))["line"] == "N-0 M105*10");
+
+    const link::test::OtherPty silent;
+    const UniqueFd held = link::test::open_terminal(silent.path);
+    const Result nothing = run({"send", "--port", silent.path, "--wait", "20", "--bare", "M105", "M999"});
+    CHECK(nothing.code == timed_out);
+    CHECK(contains(nothing.errors, "nothing came back for 'M105'"));
+    CHECK_FALSE(contains(nothing.errors, "M999"));
+    CHECK(link::test::take(silent.master.get()) == "M105\r\nM999\r\n");
+}
+
+}  // namespace
+}  // namespace fauxboard::e2e

@@ -1,0 +1,218 @@
+// A whole board, fed arbitrary bytes at arbitrary times.
+//
+// The input is a script: two digits, then one step a line. The first digit adds up 1 (no pacing), 2 (run it
+// again byte by byte: the answers must be the same), 4 (with an observer); the second chooses the profile.
+// Steps:
+//   s M115      a request from the screen, framed rightly
+//   r ~M115|    bytes from the screen as they are: ~ is LF, ` is CR, ^ is NUL, | is CR LF
+//   h M105~     the same from the USB side
+//   w card out  something done to the machine; unknown names are refused
+//   a 1500      ms go by
+//   j 30000     ms go by in which nobody calls the board
+//   b 10        the next step comes with a time this many ms ago
+//   l 1         another profile is put in force
+//   p           power off and on
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <string>
+
+#include "protocol/framing.h"
+#include "tests/fuzz/support.h"
+
+namespace fauxboard::fuzz {
+namespace {
+
+using board::Board;
+using printer::SimTime;
+
+constexpr std::array<std::string_view, 3> profiles{"geeetech-a30t", "geeetech-a30", "geeetech-a30t-no-card"};
+constexpr SimTime longest{900'000'000};  ///< virtual, of one script
+constexpr std::size_t many_stops = 20'000;
+/// What one step may put out: 16 KiB without pacing, what one more rule says, and host lines, which are
+/// answered at once, with one frame each.
+constexpr std::size_t output_bound = 256UL * 1024;
+
+/// Looks at every byte it is told of, so that a sanitizer sees a view that is not alive.
+class Witness final : public board::Observer {
+  public:
+    void on_received(SimTime now, board::Channel, std::string_view line, board::Verdict) override {
+        look(now, line);
+    }
+    void on_sent(SimTime now, std::string_view line) override { look(now, line); }
+    void on_notice(SimTime now, board::Level, std::string_view text) override { look(now, text); }
+
+  private:
+    void look(SimTime now, std::string_view text) {
+        require(now >= last_, "the observer's time went back");
+        last_ = now;
+        sum_ += protocol::xor_checksum(text);
+    }
+    SimTime last_{0};
+    unsigned sum_ = 0;
+};
+
+std::string unescape(std::string_view text) {
+    std::string bytes;
+    for (const char c : text) {
+        switch (c) {
+            case '~':
+                bytes += '\n';
+                break;
+            case '`':
+                bytes += '\r';
+                break;
+            case '^':
+                bytes += '\0';
+                break;
+            case '|':
+                bytes += "\r\n";
+                break;
+            default:
+                bytes += c;
+        }
+    }
+    return bytes;
+}
+
+/// One run of one script. The transcript is everything said and when.
+class Run {
+  public:
+    Run(unsigned mode, std::size_t profile, bool split)
+        : split_(split),
+          board_(shipped_profile(profiles[profile % profiles.size()]), {},
+                 {(mode & 1U) == 0, 7, (mode & 4U) != 0 ? &witness_ : nullptr}) {
+        board_.power_on(now_);
+    }
+
+    void step(std::string_view line);
+    /// The board must come to rest, and then still answer.
+    void finish();
+    const std::string& transcript() const { return transcript_; }
+
+  private:
+    void feed(bool host, std::string_view bytes);
+    void pass(SimTime time);
+    void take(SimTime time, std::string_view output);
+
+    bool split_;
+    Witness witness_;
+    SimTime now_{0};
+    SimTime back_{0};
+    Board board_;
+    std::string transcript_;
+    bool answered_ = false;
+};
+
+void Run::take(SimTime time, std::string_view output) {
+    check_output(output, true);
+    require(output.size() <= output_bound, "output grows without bound");
+    answered_ = answered_ || output.find("L9 DN:") != std::string_view::npos;
+    transcript_.append(std::to_string(time.count())).append(" ").append(output);
+}
+
+void Run::feed(bool host, std::string_view bytes) {
+    const SimTime when = std::max(SimTime{0}, now_ - back_);
+    const auto give = [&](std::string_view piece) {
+        host ? board_.receive_host(when, piece) : board_.receive(when, piece);
+    };
+    if (split_) {
+        for (std::size_t i = 0; i < bytes.size(); ++i) {
+            give(bytes.substr(i, 1));
+        }
+    } else {
+        give(bytes);
+    }
+    if (!board_.output().empty()) {
+        take(board_.time(), board_.output());
+        board_.clear_output();
+    }
+}
+
+void Run::pass(SimTime time) {
+    now_ += time;
+    advance_to(board_, now_, many_stops, [this](SimTime t, std::string_view bytes) { take(t, bytes); });
+}
+
+void Run::step(std::string_view line) {
+    if (line.size() > 1 && line[1] != ' ') {
+        return;
+    }
+    const std::string_view text = line.substr(std::min<std::size_t>(line.size(), 2));
+    unsigned number = 0;
+    std::from_chars(text.data(), text.data() + text.size(), number);
+    const SimTime ms{std::int64_t{number} * 1000};
+    switch (line[0]) {
+        case 's':
+            feed(false, protocol::frame(text.substr(0, protocol::max_line_bytes)));
+            break;
+        case 'r':
+            feed(false, unescape(text));
+            break;
+        case 'h':
+            feed(true, unescape(text));
+            break;
+        case 'w':
+            board_.world(now_, text);
+            break;
+        case 'a':
+            pass(std::clamp(ms, SimTime{0}, longest - std::min(now_, longest)));
+            break;
+        case 'j':
+            now_ += std::min(ms, longest - std::min(now_, longest));
+            break;
+        case 'b':
+            back_ = ms;
+            return;
+        case 'l':
+            board_.reload(shipped_profile(profiles[number % profiles.size()]));
+            break;
+        case 'p':
+            board_.power_on(now_);
+            break;
+        default:
+            return;
+    }
+    back_ = SimTime{0};
+}
+
+void Run::finish() {
+    feed(false, "\n");
+    pass(std::chrono::seconds(
+        60));  // the longest queue is empty after 6.4 s, without what the queued lines say
+    answered_ = false;
+    feed(false, protocol::frame("M115"));
+    pass(std::chrono::seconds(10));
+    require(answered_, "the board does not answer any more");
+}
+
+std::string play(std::string_view script, bool split) {
+    const auto digit = [&](std::size_t i) {
+        return i < script.size() ? static_cast<unsigned char>(script[i]) : 0U;
+    };
+    Run run(digit(0) - '0', digit(1), split);
+    script.remove_prefix(std::min<std::size_t>(script.size(), 2));
+    while (!script.empty()) {
+        const std::size_t end = std::min(script.find('\n'), script.size());
+        if (end != 0) {
+            run.step(script.substr(0, end));
+        }
+        script.remove_prefix(std::min(end + 1, script.size()));
+    }
+    run.finish();
+    return run.transcript();
+}
+
+}  // namespace
+}  // namespace fauxboard::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const std::string script(data, data + std::min<std::size_t>(size, 8192));
+    const std::string said = fauxboard::fuzz::play(script, false);
+    if (!script.empty() && ((static_cast<unsigned char>(script[0]) - '0') & 2U) != 0) {
+        fauxboard::fuzz::require(fauxboard::fuzz::play(script, true) == said,
+                                 "another split of the same bytes is answered otherwise");
+    }
+    return 0;
+}

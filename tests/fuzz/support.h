@@ -1,0 +1,56 @@
+#pragma once
+
+// What the fuzz targets share: how a broken rule is reported, and what every line of a board must look like.
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string_view>
+
+#include "emulator/behaviour/profile.h"
+#include "emulator/board/board.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+
+namespace fauxboard::fuzz {
+
+/// Ends the process with `rule` on stderr, so that the fuzzer keeps the input.
+[[noreturn]] void fail(std::string_view rule);
+
+inline void require(bool holds, std::string_view rule) {
+    if (!holds) {
+        fail(rule);
+    }
+}
+
+/// A profile as shipped, by name. Read once.
+std::shared_ptr<const behaviour::Profile> shipped_profile(std::string_view name);
+
+/// Finds the shipped profiles, and nothing else.
+behaviour::SourceFinder shipped_finder();
+
+/// Output of a board: whole lines, each ended by CR LF and without other control bytes. With `checksums`,
+/// what starts as a frame also carries the right checksum, unless it is one of the two lines that a real
+/// board leaves unfinished.
+void check_output(std::string_view output, bool checksums);
+
+/// Advances the board to `target`, stopping at each output, which goes to `take(time, bytes)` before it is
+/// cleared. Checks that time never goes back, that every stop has output, and that the board wants to be
+/// called again later than now. Gives up quietly after `max_stops` outputs.
+template <class Take>
+void advance_to(board::Board& board, printer::SimTime target, std::size_t max_stops, Take&& take) {
+    for (std::size_t stops = 0; stops < max_stops; ++stops) {
+        const printer::SimTime before = board.time();
+        const printer::SimTime next = board.advance(target);
+        require(board.time() >= before, "time went back");
+        const std::string_view output = board.output();
+        if (output.empty()) {
+            require(next > target, "advance() stopped early without output");
+            return;
+        }
+        take(board.time(), output);
+        board.clear_output();
+    }
+}
+
+}  // namespace fauxboard::fuzz

@@ -1,0 +1,178 @@
+#include "emulator/host/folder_card.h"
+
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+
+#include <fstream>
+
+#include "emulator/host/host_error.h"
+#include "tests/link/helpers.h"
+
+namespace fauxboard::host {
+namespace {
+
+namespace fs = std::filesystem;
+using Kind = printer::Volume::Kind;
+using link::test::TemporaryFolder;
+
+struct Card {
+    TemporaryFolder outside;
+    std::string root = outside.file("card");
+    Card() { fs::create_directory(root); }
+
+    void file(const std::string& name, std::string_view text = "x") const {
+        std::ofstream out(root + "/" + name, std::ios::binary);
+        out << text;
+        REQUIRE(out.good());
+    }
+    void folder(const std::string& name) const { fs::create_directories(root + "/" + name); }
+    std::vector<std::string> list(std::string_view path = "") const {
+        std::vector<printer::CardEntry> entries;
+        std::vector<std::string> names;
+        if (!FolderCard(root).list(path, entries)) {
+            return {"(none)"};
+        }
+        for (const printer::CardEntry& entry : entries)
+            names.push_back(entry.name + (entry.folder ? "/" : ":" + std::to_string(entry.bytes)));
+        return names;
+    }
+    Kind look(std::string_view path) const {
+        std::uint64_t bytes = 0;
+        return FolderCard(root).look(path, bytes);
+    }
+};
+
+using Names = std::vector<std::string>;
+
+TEST_CASE_FIXTURE(Card, "files first, then folders, each by name") {
+    folder("b-folder");
+    folder("a-folder");
+    file("z.gcode", "12345");
+    file("B.gcode");
+    file("a.gcode", "");
+    file("a-folder/inner.gcode", "1234567");
+    CHECK(list() == Names{"B.gcode:1", "a.gcode:0", "z.gcode:5", "a-folder/", "b-folder/"});
+    CHECK(list("a-folder") == Names{"inner.gcode:7"});
+    CHECK(list("b-folder").empty());
+    std::uint64_t bytes = 0;
+    CHECK(FolderCard(root).look("a-folder/inner.gcode", bytes) == Kind::file);
+    CHECK(bytes == 7);
+    CHECK(look("a-folder") == Kind::folder);
+    CHECK(look("") == Kind::folder);
+}
+
+TEST_CASE_FIXTURE(Card, "symlinks are not there, wherever they lead and wherever they stand in a path") {
+    std::ofstream(outside.file("secret")) << "secret";
+    fs::create_directory(outside.file("elsewhere"));
+    std::ofstream(outside.file("elsewhere/secret")) << "secret";
+    file("real.gcode");
+    folder("sub");
+    fs::create_symlink(outside.file("secret"), root + "/file");
+    fs::create_symlink(outside.file("elsewhere"), root + "/folder");
+    fs::create_symlink("real.gcode", root + "/inside");
+    fs::create_symlink("..", root + "/sub/up");
+    CHECK(list() == Names{"real.gcode:1", "sub/"});
+    CHECK(list("sub").empty());
+    for (const char* path : {"file", "folder", "folder/secret", "inside", "sub/up", "sub/up/real.gcode"}) {
+        CAPTURE(std::string(path));
+        CHECK(look(path) == Kind::missing);
+        CHECK(list(path) == Names{"(none)"});
+    }
+}
+
+TEST_CASE_FIXTURE(Card, "paths that mean to leave the folder lead nowhere") {
+    std::ofstream(outside.file("secret")) << "secret";
+    folder("sub");
+    for (const char* path : {"..", "../secret", "sub/../../secret", "/etc/passwd", "//etc", ".", "sub/.",
+                             "sub//x", "./sub", "sub/..", "\n", "a\tb"}) {
+        CAPTURE(std::string(path));
+        CHECK(look(path) == Kind::missing);
+        CHECK(list(path) == Names{"(none)"});
+    }
+    CHECK(look(std::string_view("sub\0x", 5)) == Kind::missing);
+    CHECK(look(std::string(10'000, 'x')) == Kind::missing);
+    CHECK(look(std::string(5'000, '/')) == Kind::missing);
+}
+
+TEST_CASE_FIXTURE(Card, "pipes, sockets and devices are not there, and asking does not hang") {
+    REQUIRE(::mkfifo((root + "/pipe").c_str(), 0600) == 0);
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    REQUIRE((root + "/socket").copy(address.sun_path, sizeof address.sun_path - 1) == root.size() + 7);
+    const link::UniqueFd socket(::socket(AF_UNIX, SOCK_STREAM, 0));
+    REQUIRE(::bind(socket.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0);
+    if (::mknod((root + "/device").c_str(), S_IFCHR | 0600, (1 << 8) | 3) != 0) {
+        MESSAGE("not allowed to make a device; tried without");
+    }
+    file("a.gcode");
+    CHECK(list() == Names{"a.gcode:1"});
+    CHECK(look("pipe") == Kind::missing);
+    CHECK(list("pipe") == Names{"(none)"});
+    CHECK(look("socket") == Kind::missing);
+    CHECK(look("device") == Kind::missing);
+}
+
+TEST_CASE_FIXTURE(Card, "names are bytes; those that would break the line are left out") {
+    file("caf\xC3\xA9.gcode");  // UTF-8
+    file("caf\xE9.gcode");      // Latin-1
+    file("with blank.gcode");
+    file("star*12.gcode");
+    file("line\nend.gcode");
+    file("line\rend.gcode");
+    file("bell\a.gcode");
+    file("delete\x7F.gcode");
+    CHECK(list() == Names{"caf\xC3\xA9.gcode:1", "caf\xE9.gcode:1", "star*12.gcode:1", "with blank.gcode:1"});
+    CHECK(look("caf\xE9.gcode") == Kind::file);
+    CHECK(look("line\nend.gcode") == Kind::missing);
+}
+
+TEST_CASE_FIXTURE(Card, "of a huge folder the first entries by name are shown") {
+    for (int i = 0; i < 5000; ++i)
+        file("f" + std::to_string(10'000 + i), "");
+    folder("a-folder");
+    const Names names = list();
+    REQUIRE(names.size() == FolderCard::max_entries);
+    CHECK(names.front() == "f10000:0");
+    CHECK(names.back() == "a-folder/");
+    CHECK(look("f14999") == Kind::file);  // there all the same
+}
+
+TEST_CASE_FIXTURE(Card, "a folder that vanishes is an empty card, and may come back") {
+    file("a.gcode");
+    const FolderCard card(root);
+    std::vector<printer::CardEntry> entries;
+    fs::remove_all(root);
+    CHECK_FALSE(card.list("", entries));
+    CHECK(entries.empty());
+    std::uint64_t bytes = 0;
+    CHECK(card.look("a.gcode", bytes) == Kind::missing);
+    fs::create_directory(root);
+    file("b.gcode");
+    CHECK(card.list("", entries));
+    CHECK(entries.size() == 1);
+}
+
+TEST_CASE_FIXTURE(Card, "a file that may not be read is seen but unreadable") {
+    file("locked.gcode");
+    fs::permissions(root + "/locked.gcode", fs::perms::none);
+    if (::access((root + "/locked.gcode").c_str(), R_OK) == 0) {
+        MESSAGE("this user may read everything; skipped");
+        return;
+    }
+    CHECK(look("locked.gcode") == Kind::unreadable);
+    CHECK(list() == Names{"locked.gcode:1"});
+}
+
+TEST_CASE_FIXTURE(Card, "what is no folder is refused at the start") {
+    file("a.gcode");
+    REQUIRE(::mkfifo((root + "/pipe").c_str(), 0600) == 0);
+    for (const char* bad : {"/missing", "/a.gcode", "/pipe"}) {
+        CAPTURE(std::string(bad));
+        CHECK_THROWS_AS(FolderCard(root + bad), HostError);
+    }
+    CHECK_THROWS_AS(FolderCard(""), HostError);
+}
+
+}  // namespace
+}  // namespace fauxboard::host

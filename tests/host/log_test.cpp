@@ -1,0 +1,174 @@
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "emulator/host/host_error.h"
+#include "emulator/host/json_log.h"
+#include "emulator/host/line_log.h"
+#include "emulator/host/recorder.h"
+#include "emulator/host/recording.h"
+#include "tests/link/helpers.h"
+
+namespace fauxboard::host {
+namespace {
+
+using namespace std::chrono_literals;
+using board::Channel;
+using board::Level;
+using board::Verdict;
+using link::test::contains;
+
+/// A pipe to write a log to; what() reads what has come.
+struct Pipe {
+    link::UniqueFd in;
+    link::UniqueFd out;
+    Pipe() {
+        std::array<int, 2> ends{};
+        REQUIRE(::pipe2(ends.data(), O_CLOEXEC) == 0);
+        in.reset(ends[0]);
+        out.reset(ends[1]);
+        REQUIRE(::fcntl(ends[0], F_SETFL, O_NONBLOCK) == 0);
+    }
+    std::string take() const { return link::test::take(in.get()); }
+};
+
+std::size_t count_lines(const std::string& text) {
+    return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+TEST_CASE("a line of the log has time, direction, bytes and words, and no colours off a terminal") {
+    const Pipe pipe;
+    TextOutput out(pipe.out.get());
+    LineLog log(out, Detail::normal, 100);
+    log.on_received(12'345'678us, Channel::screen, "N-0 M104 S200*74", Verdict::accepted);
+    const std::string text = pipe.take();
+    CHECK(text.starts_with("    12.346  screen → board  N-0 M104 S200*74"));
+    CHECK(contains(text, "nozzle: target 200 °C"));
+    CHECK_FALSE(contains(text, "\x1b"));
+}
+
+TEST_CASE("bytes that a terminal would obey are shown as numbers") {
+    const Pipe pipe;
+    TextOutput out(pipe.out.get());
+    LineLog log(out, Detail::normal, 100);
+    log.on_received(0us, Channel::host, "M117 \x1b[2J\xE9\x7F", Verdict::bad_frame);
+    log.on_sent(0us, "L9 SN:\xFF;");
+    const std::string text = pipe.take();
+    CHECK(contains(text, "host → board"));
+    CHECK(contains(text, "\\x1B[2J\\xE9\\x7F"));
+    CHECK(contains(text, "refused: bad frame"));
+    CHECK(contains(text, "\\xFF"));
+    CHECK_FALSE(contains(text, "\x1b"));
+}
+
+TEST_CASE("levels") {
+    const auto lines = [](Detail detail) {
+        const Pipe pipe;
+        TextOutput out(pipe.out.get());
+        LineLog log(out, detail, 100);
+        log.on_sent(0us, "L1");
+        log.on_link(0us, link::LinkState::up, "here");
+        for (const Level level : {Level::debug, Level::info, Level::warning, Level::error})
+            log.on_notice(0us, level, "text");
+        return count_lines(pipe.take());
+    };
+    CHECK(lines(Detail::quiet) == 2);
+    CHECK(lines(Detail::normal) == 5);
+    CHECK(lines(Detail::verbose) == 6);
+}
+
+TEST_CASE("a flood is cut short, and its size is told") {
+    const Pipe pipe;
+    TextOutput out(pipe.out.get());
+    LineLog log(out, Detail::normal, 100);
+    std::size_t shown = 0;
+    for (int i = 0; i < 100'000; ++i) {  // ten seconds of 10 000 bad lines each
+        log.on_received(SimTime(i * 100), Channel::screen, "nonsense", Verdict::bad_frame);
+        shown += count_lines(pipe.take());
+    }
+    CHECK(shown > 400);
+    CHECK(shown < 1500);
+    log.finish(10s);
+    CHECK(contains(pipe.take(), "lines left out of this log"));
+    log.on_sent(60s, "L1");
+    CHECK(count_lines(pipe.take()) == 1);
+}
+
+TEST_CASE("a reader that does not read loses lines, whole ones, and holds up nobody") {
+    const Pipe pipe;
+    TextOutput out(pipe.out.get());
+    JsonLog log(out);
+    for (int i = 0; i < 10'000; ++i)
+        log.on_sent(SimTime(i), "N-0 L1 X0.000 Y0.000 Z0.000 F0*13");
+    CHECK(out.left_out() > 1000);
+    const std::uint64_t left_out = out.left_out();
+    pipe.take();
+    log.on_sent(1s, "L1");
+    std::istringstream text(pipe.take());
+    std::string line;
+    REQUIRE(std::getline(text, line));
+    CHECK(nlohmann::json::parse(line)["left_out"] == left_out);
+    REQUIRE(std::getline(text, line));
+    CHECK(nlohmann::json::parse(line)["line"] == "L1");
+}
+
+TEST_CASE("a closed output is borne") {
+    Pipe pipe;
+    pipe.in.reset();
+    const auto old = std::signal(SIGPIPE, SIG_IGN);
+    TextOutput out(pipe.out.get());
+    CHECK_FALSE(out.write("text\n"));
+    TextOutput nowhere(-1);
+    CHECK_FALSE(nowhere.write("text\n"));
+    std::signal(SIGPIPE, old);
+}
+
+TEST_CASE("JSON lines hold any bytes") {
+    const Pipe pipe;
+    TextOutput out(pipe.out.get());
+    JsonLog log(out);
+    log.on_received(1'500'000us, Channel::screen, "M117 \"\xE9\\\x01", Verdict::queue_full);
+    log.on_notice(2s, Level::warning, "odd bytes: \xFF");
+    log.on_link(3s, link::LinkState::waiting, "gone");
+    std::istringstream text(pipe.take());
+    std::string line;
+    REQUIRE(std::getline(text, line));
+    auto json = nlohmann::json::parse(line);
+    CHECK(json["t"] == 1.5);
+    CHECK(json["from"] == "screen");
+    CHECK(json["line"] == "M117 \"\u00e9\\\u0001");
+    CHECK(json["refused"] == "queue full");
+    REQUIRE(std::getline(text, line));
+    CHECK(nlohmann::json::parse(line)["level"] == "warning");
+    REQUIRE(std::getline(text, line));
+    CHECK(nlohmann::json::parse(line)["link"] == "waiting");
+}
+
+TEST_CASE("a recording holds every line of the wire and can be loaded at any moment") {
+    const link::test::TemporaryFolder folder;
+    const std::string file = folder.file("talk.jsonl");
+    Recorder recorder(file, {});
+    recorder.on_received(1'000'001us, Channel::screen, "N-0 M105*10", Verdict::accepted);
+    recorder.on_received(2s, Channel::host, "M115", Verdict::accepted);
+    recorder.on_sent(3s, "L9 SN:\xFF");
+    const auto lines = load_recording(file);
+    REQUIRE(lines.size() == 3);
+    CHECK(lines[0].t == 1'000'001us);
+    CHECK(lines[0].from == RecordedLine::From::screen);
+    CHECK(lines[1].from == RecordedLine::From::host);
+    CHECK(lines[2].bytes == "L9 SN:\xFF");
+    CHECK(recorder.lines() == 3);
+}
+
+TEST_CASE("a full disk ends the recording once, and nothing else") {
+    std::vector<std::string> troubles;
+    Recorder recorder("/dev/full", [&](SimTime, std::string_view text) { troubles.emplace_back(text); });
+    for (int i = 0; i < 10; ++i)
+        recorder.on_sent(1s, "L1");
+    CHECK(troubles.size() == 1);
+    CHECK(recorder.lines() == 0);
+    CHECK_THROWS_AS(Recorder("/missing/talk.jsonl", {}), HostError);
+}
+
+}  // namespace
+}  // namespace fauxboard::host

@@ -1,0 +1,73 @@
+#include <doctest/doctest.h>
+
+#include "tests/tools/helpers.h"
+#include "tools/check_files.h"
+
+using namespace fauxboard;
+using tests::TemporaryFile;
+using tools::check_file;
+using tools::CheckedFile;
+
+namespace {
+
+std::string sentences(const CheckedFile& checked) {
+    std::string out;
+    for (const behaviour::Problem& problem : checked.problems) {
+        out += problem.sentence() + "\n";
+    }
+    return out;
+}
+
+}  // namespace
+
+TEST_CASE("check: good files, by path and by name") {
+    const CheckedFile by_path = check_file(FAUXBOARD_SOURCE_DIR "/profiles/geeetech-a30t.json");
+    CHECK(by_path.readable);
+    CHECK(sentences(by_path) == "");
+    CHECK(by_path.remark == "");
+    CHECK(sentences(check_file("smartto-base")) == "");
+    const TemporaryFile mine("mine.json", R"({"name": "mine", "extends": "geeetech-a30t", "title": "Mine"})");
+    CHECK(sentences(check_file(mine.path())) == "");
+}
+
+TEST_CASE("check: what the loader finds comes with line, place and nearest name, and once only") {
+    const TemporaryFile file("wrong.json", R"({
+  "name": "wrong",
+  "extends": "geeetech-a30t",
+  "frames": {
+    "L1": "L1 X{positon.x:.3f}"
+  },
+  "line": { "boud": 9600 }
+})");
+    const CheckedFile checked = check_file(file.path());
+    CHECK(sentences(checked) ==
+          file.path() + ":7: /line/boud: unknown key \"boud\"; did you mean \"baud\"?\n" + file.path() +
+              ":5: /frames/L1: unknown field \"positon.x\"; did you mean \"position.x\"?\n");
+}
+
+TEST_CASE("check: what only the schema forbids is told, with its line") {
+    const TemporaryFile file("form.json", R"({
+  "name": "form",
+  "extends": "geeetech-a30t",
+  "title": "Form",
+  "requests": {
+    "M9000": { "when": { "S": { "present": true } },
+               "do": [ [ ] ] }
+  },
+  "machine": { "card": { "entries": [ { "file": "x", "lines": {} } ] } }
+})");
+    const CheckedFile checked = check_file(file.path());
+    CHECK(sentences(checked).find("form.json:9: /machine/card/entries/0/lines: against the schema: ") !=
+          std::string::npos);
+}
+
+TEST_CASE("check: no JSON, another kind of file, no file") {
+    const TemporaryFile torn("torn.json", "{\n  \"name\": \n");
+    CHECK(sentences(check_file(torn.path())).find("torn.json:3: not JSON") != std::string::npos);
+    const TemporaryFile other("other.json", R"({"$schema": "schemas/coffee.schema.json", "name": "x"})");
+    CHECK(sentences(check_file(other.path())) ==
+          other.path() + ":1: /$schema: unknown kind of file; expected the path of profile.schema.json\n");
+    CHECK_FALSE(check_file("/no/such/file.json").readable);
+    CHECK_FALSE(check_file("no-such-profile").readable);
+    CHECK_FALSE(check_file("/").readable);
+}

@@ -1,0 +1,51 @@
+// `fauxboard decode`, the real program.
+
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "tests/tools/program.h"
+
+namespace fauxboard::test {
+namespace {
+
+TEST_CASE("decode: files, two files merged, standard input") {
+    const TemporaryFolder folder;
+    const std::string in = folder.put("in.txt", "15:00:00.1 - N-0 M27*59\n15:00:00.3 - N-0 M105*10\n");
+    const std::string out = folder.put("out.txt", "15:00:00.2 - N-0 L21 P0 S0*63\n");
+    const Outcome merged = run_program("decode " + in + " " + out);
+    CHECK(merged.code == 0);
+    const auto lines = lines_of(merged.out);
+    REQUIRE(lines.size() == 3);
+    CHECK(lines[0].find("N-0 M27*59") != std::string::npos);
+    CHECK(lines[1].find("N-0 L21 P0 S0*63") != std::string::npos);
+    const Outcome piped = run_shell("printf 'M27\\n\\033\\n' | " FAUXBOARD_PROGRAM " decode");
+    CHECK(piped.code == 0);
+    CHECK(lines_of(piped.out).at(1).find("\\x1B") != std::string::npos);
+    CHECK(run_shell("printf 'M27\\n' | " FAUXBOARD_PROGRAM " decode --json -")
+              .out.starts_with("{\"from\":\"screen\""));
+}
+
+TEST_CASE("decode: a bad line is marked and the rest decoded; a bad file is exit code 3") {
+    const TemporaryFolder folder;
+    const std::string file =
+        folder.put("x.jsonl", "{\"t\":\n{\"t\": 1, \"from\": \"screen\", \"line\": \"M27\"}\n");
+    const Outcome bad_line = run_program("decode " + file);
+    CHECK(bad_line.code == 0);
+    CHECK(bad_line.out.starts_with("x " + file + ":1: not JSON"));
+    CHECK(lines_of(bad_line.out).size() == 2);
+    for (const std::string& none : {folder.file("none"), folder.file("")}) {
+        const Outcome outcome = run_program("decode " + file + " " + none);
+        CHECK(outcome.code == 3);
+        CHECK(lines_of(outcome.out).size() == 1);
+        CHECK(outcome.out.find("cannot be read") != std::string::npos);
+    }
+}
+
+TEST_CASE("decode: an end that nobody reads any more ends it") {
+    const Outcome outcome = run_shell("yes M27 | " FAUXBOARD_PROGRAM " decode | head -n 1");
+    CHECK(lines_of(outcome.out).size() == 1);
+}
+
+}  // namespace
+}  // namespace fauxboard::test

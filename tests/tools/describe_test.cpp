@@ -1,0 +1,53 @@
+// The generated files against the tables they were made from.
+
+#include <doctest/doctest.h>
+
+#include "emulator/behaviour/actions.h"
+#include "emulator/behaviour/fields.h"
+#include "emulator/printer/events.h"
+#include "protocol/catalogue.h"
+#include "tests/tools/helpers.h"
+#include "tools/describe_reference.h"
+
+using namespace fauxboard;
+using tests::read_file;
+
+TEST_CASE("describe: profiles/REFERENCE.md is what `describe --markdown` prints") {
+    const bool same = read_file(FAUXBOARD_SOURCE_DIR "/profiles/REFERENCE.md") == tools::reference_markdown();
+    CHECK_MESSAGE(same, "stale: fauxboard describe --markdown > profiles/REFERENCE.md");
+}
+
+TEST_CASE("describe: the schema's generated part is that of the tables") {
+    const std::string text = read_file(FAUXBOARD_SOURCE_DIR "/profiles/schemas/profile.schema.json");
+    const auto schema = nlohmann::ordered_json::parse(text);
+    const bool same = tools::schema_text(tools::refresh_schema(schema)) == text;
+    CHECK_MESSAGE(same, "stale: see the end of profiles/README.md");
+}
+
+TEST_CASE("describe: all rows are there, each with its words") {
+    const auto reference = tools::reference_json(tools::reference_parts);
+    CHECK(reference["fields"].size() == behaviour::fields().size());
+    CHECK(reference["actions"].size() == behaviour::actions().size());
+    CHECK(reference["events"].size() == printer::events().size());
+    CHECK(reference["codes"].size() == protocol::catalogue().size());
+    const std::string text = tools::reference_text(tools::reference_parts);
+    for (const auto& [part, rows] : reference.items()) {
+        for (const auto& row : rows) {
+            const std::string name = row.begin().value();
+            CAPTURE(name);
+            CHECK(text.find(" " + name) != std::string::npos);
+            const bool described = !row.value("help", row.value("meaning", std::string{})).empty();
+            CHECK(described);
+        }
+    }
+}
+
+TEST_CASE("describe: only the parts asked for") {
+    const std::string_view part = "events";
+    const auto reference = tools::reference_json({&part, 1});
+    CHECK(reference.size() == 1);
+    CHECK(reference.contains("events"));
+    const std::string text = tools::reference_text({&part, 1});
+    CHECK(text.starts_with("EVENTS"));
+    CHECK(text.find("FIELDS") == std::string::npos);
+}

@@ -1,0 +1,180 @@
+// tools/fauxboard.lua: its table, and what Wireshark makes of our captures with it.
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "emulator/host/pcapng.h"
+#include "emulator/host/recording.h"
+#include "protocol/annotate.h"
+#include "tests/tools/dissector_table.h"
+#include "tests/tools/program.h"
+
+namespace fauxboard::test {
+namespace {
+
+using protocol::Direction;
+
+const std::string script = FAUXBOARD_SOURCE_DIR "/tools/fauxboard.lua";
+
+std::string read(const std::string& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+TEST_CASE("the dissector's table is that of the catalogue") {
+    const std::string text = read(script);
+    const std::size_t from = text.find("\nlocal codes = {") + 1;
+    const std::size_t to = text.find("-- END CODES");
+    REQUIRE(from != 0);
+    REQUIRE(to != std::string::npos);
+    if (text.substr(from, to - from) != dissector_table() && std::getenv("FAUXBOARD_UPDATE") != nullptr) {
+        std::ofstream out(script, std::ios::binary);
+        out << text.substr(0, from) << dissector_table() << text.substr(to);
+        MESSAGE("tools/fauxboard.lua has been brought up to date");
+        return;
+    }
+    CHECK_MESSAGE(text.substr(from, to - from) == dissector_table(),
+                  "run FAUXBOARD_UPDATE=1 test_tools to bring tools/fauxboard.lua up to date");
+}
+
+/// A capture of these lines, board and screen in turn as the pairs say.
+struct Spoken {
+    Direction direction;
+    std::string bytes;  ///< with the line's end
+};
+
+/// What tshark prints, field by field ('|' between them), a line each packet; nothing without tshark.
+std::vector<std::string> tshark(const std::vector<Spoken>& talk, const std::string& fields,
+                                bool with_script) {
+    TemporaryFolder folder;
+    const std::string file = folder.file("capture.pcapng");
+    {
+        host::PcapngWriter capture(file, printer::SimTime{1'700'000'000'000'000}, {});
+        printer::SimTime t{0};
+        for (const Spoken& spoken : talk) {
+            t += printer::SimTime{1'234};
+            capture.packet(t, spoken.direction, spoken.bytes);
+        }
+    }
+    const Outcome outcome = run_shell(fmt::format(
+        "tshark {} -r {} -T fields -E separator='|' -E occurrence=a {} 2>{}",
+        with_script ? "-X lua_script:" + script : std::string(), file, fields, folder.file("err")));
+    CHECK(read(folder.file("err")).find("Lua") == std::string::npos);
+    REQUIRE(outcome.code == 0);
+    return lines_of(outcome.out);
+}
+
+bool tshark_is_here() {
+    static const bool here = run_shell("tshark --version >/dev/null 2>&1").code == 0;
+    if (!here) {
+        MESSAGE("skipped: no tshark on this computer");
+    }
+    return here;
+}
+
+TEST_CASE("tshark opens a capture without the dissector: serial line, direction, time, bytes") {
+    if (!tshark_is_here()) {
+        return;
+    }
+    const auto rows =
+        tshark({{Direction::to_screen, "N-0 L21 P0 S0*63\r\n"}, {Direction::to_board, "M27\r\n"}},
+               "-e frame.protocols -e frame.interface_name -e frame.time_epoch "
+               "-e frame.packet_flags_direction -e data.data",
+               false);
+    REQUIRE(rows.size() == 2);
+    CHECK(rows[0] ==
+          "rtacser:data|board|1700000000.001234000|0x00000002|4e2d30204c3231205030205330"
+          "2a36330d0a");
+    CHECK(rows[1] == "rtacser:data|screen|1700000000.002468000|0x00000001|4d32370d0a");
+}
+
+TEST_CASE("the dissector names code and fields") {
+    if (!tshark_is_here()) {
+        return;
+    }
+    const auto rows = tshark(
+        {{Direction::to_screen, "N-0 L2 B:22.0 /0.0 /0 T0:200.5 /210.0 /1 SD:1 F0:0 F2:50 R:100 FR:0*64\r\n"},
+         {Direction::to_board, "N-0 M104 S200*74\r\n"},
+         {Direction::to_screen, "N-0 L24 P5 A0.30*0\r\n"},
+         {Direction::to_board, std::string("\0log Geeetech LCD OK\r\n", 22)},
+         {Direction::to_screen, "N-0 L99 X1*\r\n"}},
+        "-e fauxboard.direction -e fauxboard.code -e fauxboard.title -e fauxboard.checksum.status "
+        "-e fauxboard.board.l2.t0 -e fauxboard.screen.m104.s -e fauxboard.words",
+        true);
+    REQUIRE(rows.size() == 5);
+    CHECK(
+        rows[0].starts_with("board → screen|L2|temperatures|wrong|200.5||temperatures: bed: 22.0 °C, target: "
+                            "0.0 °C, "));
+    CHECK(rows[1] == "screen → board|M104|nozzle|right||200|nozzle: target: 200 °C");
+    CHECK(rows[2].starts_with("board → screen|L24|"));
+    CHECK(rows[2].find("0.30 mm") != std::string::npos);
+    CHECK(rows[3].starts_with("screen → board|log|"));
+    CHECK(rows[4].starts_with("board → screen|L99||missing|||unknown \"L99 X1\""));
+}
+
+/// The names that the dissector should find: what the program itself finds.
+std::string expected_names(const Spoken& spoken) {
+    const auto line = protocol::decode_line(spoken.bytes, spoken.direction);
+    std::string text = line.code != nullptr ? std::string(line.code->title) : "unknown";
+    for (const protocol::DecodedField& field : line.fields) {
+        text += ", " + (field.info == nullptr ? "unknown" : std::string(field.info->name));
+    }
+    return text;
+}
+
+/// The names in the dissector's words: "title: name: value, name: value".
+bool names_are_in(const std::string& words, const Spoken& spoken) {
+    const auto line = protocol::decode_line(spoken.bytes, spoken.direction);
+    std::size_t at = 0;
+    const auto follows = [&](std::string_view part) {
+        at = words.find(part, at);
+        return at != std::string::npos;
+    };
+    if (!follows(line.code != nullptr ? line.code->title : "unknown")) {
+        return false;
+    }
+    for (const protocol::DecodedField& field : line.fields) {
+        if (line.code != nullptr && !follows(field.info == nullptr ? "unknown" : field.info->name)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+TEST_CASE("the dissector finds the fields that decode finds, in a recording of a real line") {
+    const std::string capture = FAUXBOARD_SOURCE_DIR "/../shared/captures/a30t-boot-heat-load-home.jsonl";
+    if (!std::filesystem::exists(capture)) {
+        MESSAGE("skipped: no captures here");
+        return;
+    }
+    if (!tshark_is_here()) {
+        return;
+    }
+    std::vector<Spoken> talk;
+    for (const host::RecordedLine& line : host::load_recording(capture)) {
+        if (line.from == host::RecordedLine::From::board || line.from == host::RecordedLine::From::screen) {
+            talk.push_back(
+                {line.from == host::RecordedLine::From::board ? Direction::to_screen : Direction::to_board,
+                 line.bytes});
+        }
+    }
+    const auto rows = tshark(talk, "-e fauxboard.checksum.status -e fauxboard.words", true);
+    REQUIRE(rows.size() == talk.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        CAPTURE(talk[i].bytes);
+        CAPTURE(rows[i]);
+        CAPTURE(expected_names(talk[i]));
+        CHECK(names_are_in(rows[i], talk[i]));
+        CHECK_FALSE(rows[i].starts_with("wrong"));
+    }
+}
+
+}  // namespace
+}  // namespace fauxboard::test
