@@ -53,7 +53,8 @@ TEST_CASE("actions: recordings call some of them by a phrase") {
           std::pair{"card in", "card.insert"}, std::pair{"card out", "card.remove"},
           std::pair{"board reset", "board.reset"}, std::pair{"motors off", "motors.disable"},
           std::pair{"board.reset", "board.reset"}}) {
-        CAPTURE(phrase);
+        const auto& shown_phrase = phrase;
+        CAPTURE(shown_phrase);
         REQUIRE(find_world_action(phrase) != nullptr);
         CHECK(find_world_action(phrase)->name == name);
     }

@@ -54,11 +54,13 @@ void check_replies(const BoardDriver& driver, const Vector& vector, double press
 
 void check_state(const BoardDriver& driver, const Vector& vector) {
     for (const auto& [path, value] : vector.state) {
-        CAPTURE(path);
+        const auto& shown_path = path;
+        CAPTURE(shown_path);
         CHECK(driver.number(path) == doctest::Approx(value).epsilon(1e-9));
     }
     for (const auto& [path, value] : vector.texts) {
-        CAPTURE(path);
+        const auto& shown_path = path;
+        CAPTURE(shown_path);
         CHECK(driver.text(path) == value);
     }
 }

@@ -183,7 +183,8 @@ TEST_CASE("schema: every key that it names is tried above, so that the loader wa
         for (const auto& [key, value] : object.items()) {
             ++keys;
             CAPTURE(pointer);
-            CAPTURE(key);
+            const auto& shown_key = key;
+            CAPTURE(shown_key);
             CHECK(tried(key));
             const bool described =
                 value.contains("description") || value.contains("$ref") || value.contains("allOf");
@@ -224,7 +225,8 @@ TEST_CASE("schema: bounds are those of the loader") {
         {"/events/motion.homed/do/0", 7},
     };
     for (const auto& [place, value] : wrong) {
-        CAPTURE(place);
+        const auto& shown_place = place;
+        CAPTURE(shown_place);
         CAPTURE(value.dump());
         json bad = everything();
         bad[json::json_pointer(place)] = value;
