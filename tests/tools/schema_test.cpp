@@ -227,7 +227,8 @@ TEST_CASE("schema: bounds are those of the loader") {
     for (const auto& [place, value] : wrong) {
         const auto& shown_place = place;
         CAPTURE(shown_place);
-        CAPTURE(value.dump());
+        const std::string shown_value = value.dump();
+        CAPTURE(shown_value);
         json bad = everything();
         bad[json::json_pointer(place)] = value;
         CHECK(by_schema(bad) != "");
