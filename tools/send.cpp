@@ -71,6 +71,7 @@ class Talk final : public link::LinkListener {
         : options_(options),
           loop_(loop),
           clock_(host::make_clock(loop, host::Speed{})),
+          alarm_(clock_->make_alarm([this] { wake(); })),
           out_(STDOUT_FILENO, host::TextOutput::WhenFull::wait) {
         if (options.json) {
             log_ = std::make_unique<host::JsonLog>(out_);
@@ -81,7 +82,7 @@ class Talk final : public link::LinkListener {
 
     ExitCode run(link::Link& link) {
         link_ = &link;
-        clock_->start([this] { wake(); });
+        clock_->start();
         link.open(*this);
         next();
         clock_->run();
@@ -124,12 +125,12 @@ class Talk final : public link::LinkListener {
         answered_ = false;
         quiet_until_ = now + wait();
         limit_ = now + patience * wait();
-        clock_->wake_at(quiet_until_);
+        alarm_->at(quiet_until_);
     }
 
     void wake() {
         if (clock_->now() < quiet_until_) {
-            clock_->wake_at(quiet_until_);
+            alarm_->at(quiet_until_);
             return;
         }
         judge(options_.commands[at_]);
@@ -149,6 +150,7 @@ class Talk final : public link::LinkListener {
     const SendOptions& options_;
     asio::io_context& loop_;
     std::unique_ptr<host::Clock> clock_;
+    std::unique_ptr<host::Alarm> alarm_;
     host::TextOutput out_;
     std::unique_ptr<host::LiveObserver> log_;
     protocol::LineSplitter splitter_;

@@ -55,6 +55,7 @@ class TapRun final : public host::TapObserver {
           ends_{host::parse_tap_end(options.ends[0]), host::parse_tap_end(options.ends[1])},
           log_(err_, options.log),
           clock_(host::make_clock(loop_, {})),
+          alarm_(clock_->make_alarm([this] { wake(); })),
           signals_(loop_, SIGINT, SIGTERM, SIGHUP) {}
 
     void operator()();
@@ -90,6 +91,7 @@ class TapRun final : public host::TapObserver {
     std::optional<host::Recorder> recorder_;
     std::optional<host::PcapngWriter> capture_;
     std::unique_ptr<host::Clock> clock_;
+    std::unique_ptr<host::Alarm> alarm_;
     std::unique_ptr<link::Link> a_;
     std::unique_ptr<link::Link> b_;
     std::optional<host::TapTalk> talk_;
@@ -165,7 +167,7 @@ void TapRun::report() {
 }
 
 void TapRun::arm() {
-    clock_->wake_at(
+    alarm_->at(
         std::min({talk_->due(), options_.duration, options_.verbose ? next_report_ : printer::never}));
 }
 
@@ -190,7 +192,7 @@ void TapRun::operator()() {
             loop_.stop();
         }
     });
-    clock_->start([this] { wake(); });
+    clock_->start();
     tap_->open();
     say_ready();
     arm();

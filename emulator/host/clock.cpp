@@ -3,51 +3,93 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "emulator/link/event_loop.h"
 
 namespace fauxboard::host {
-namespace {
 
 using printer::never;
+
+Alarm::Alarm(Clock& clock, std::function<void()> on_ring)
+    : clock_(clock), on_ring_(std::make_shared<const std::function<void()>>(std::move(on_ring))) {
+    clock_.alarms_.push_back(this);
+}
+
+Alarm::~Alarm() {
+    std::erase(clock_.alarms_, this);
+}
+
+void Alarm::at(SimTime when) {
+    when_ = when;
+    if (!clock_.ringing_) {  // else the clock arms once, after the last of them
+        clock_.arm(when);
+    }
+}
+
+SimTime Clock::earliest() const {
+    SimTime first = never;
+    for (const Alarm* alarm : alarms_) {
+        first = std::min(first, alarm->when_);
+    }
+    return first;
+}
+
+void Clock::ring_round(SimTime now) {
+    ringing_ = true;
+    ++round_;
+    while (true) {
+        Alarm* next = nullptr;
+        for (Alarm* alarm : alarms_) {
+            if (alarm->when_ <= now && alarm->round_ != round_ &&
+                (next == nullptr || alarm->when_ < next->when_)) {
+                next = alarm;
+            }
+        }
+        if (next == nullptr) {
+            break;
+        }
+        next->when_ = never;
+        next->round_ = round_;
+        const auto on_ring = next->on_ring_;  // kept, should the alarm be destroyed by its own call
+        (*on_ring)();
+    }
+    ringing_ = false;
+}
+
+void Clock::ring_due() {
+    ring_round(now());
+    arm(earliest());
+}
+
+void Clock::skip(SimTime by) {
+    if (ringing_) {
+        throw std::logic_error("time is skipped from inside an alarm");
+    }
+    constexpr SimTime latest = never / 2;  // so that sums of times stay in range
+    const SimTime from = now();
+    const SimTime end = from + std::clamp(by, SimTime{0}, std::max(latest - from, SimTime{0}));
+    skipping_at_ = from;
+    for (SimTime next = earliest(); next <= end; next = earliest()) {
+        skipping_at_ = std::max(skipping_at_, next);
+        ring_round(skipping_at_);
+    }
+    skipping_at_ = never;
+    skipped(end - from);
+    arm(earliest());
+}
+
+namespace {
 
 class RealClock final : public Clock {
   public:
     RealClock(asio::io_context& context, double speed) : context_(context), timer_(context), speed_(speed) {}
 
-    void start(std::function<void()> on_wake) override {
-        on_wake_ = std::move(on_wake);
+    void start() override {
         origin_ = std::chrono::steady_clock::now();
-    }
-
-    SimTime now() const override {
-        const auto passed = std::chrono::steady_clock::now() - origin_;
-        if (speed_ == 1) {
-            return std::chrono::duration_cast<SimTime>(passed);
-        }
-        return SimTime{
-            static_cast<SimTime::rep>(std::chrono::duration<double, std::micro>(passed).count() * speed_)};
-    }
-
-    void wake_at(SimTime when) override {
-        // A timer that rings too early costs one turn of the loop; moving it costs a system call each time,
-        // and most requests move the next thing due to and fro.
-        if (when >= armed_) {
-            return;
-        }
-        const double real_us = std::ceil(static_cast<double>(when.count()) / speed_);
-        if (real_us > longest_wait_us) {
-            return;
-        }
-        armed_ = when;
-        timer_.expires_at(origin_ + std::chrono::microseconds(static_cast<std::int64_t>(real_us)));
-        timer_.async_wait([this](const asio::error_code& error) {
-            if (!error) {
-                armed_ = never;
-                on_wake_();
-            }
-        });
+        started_ = true;
+        arm(earliest());
     }
 
     void run() override { context_.run(); }
@@ -55,11 +97,50 @@ class RealClock final : public Clock {
   private:
     static constexpr double longest_wait_us = 3e15;  // 95 years
 
+    SimTime time() const override {
+        if (!started_) {
+            return skipped_;
+        }
+        const auto passed = std::chrono::steady_clock::now() - origin_;
+        if (speed_ == 1) {
+            return std::chrono::duration_cast<SimTime>(passed) + skipped_;
+        }
+        const double scaled = std::chrono::duration<double, std::micro>(passed).count() * speed_;
+        return SimTime{static_cast<SimTime::rep>(scaled)} + skipped_;
+    }
+
+    void arm(SimTime when) override {
+        // A timer that rings too early costs one turn of the loop; moving it costs a system call each time,
+        // and most requests move the next thing due to and fro.
+        if (when >= armed_ || !started_) {
+            return;
+        }
+        const double real_us = std::ceil(static_cast<double>((when - skipped_).count()) / speed_);
+        if (real_us > longest_wait_us) {
+            return;
+        }
+        armed_ = when;
+        timer_.expires_at(origin_ +
+                          std::chrono::microseconds(static_cast<std::int64_t>(std::max(real_us, 0.0))));
+        timer_.async_wait([this](const asio::error_code& error) {
+            if (!error) {
+                armed_ = never;
+                ring_due();
+            }
+        });
+    }
+
+    void skipped(SimTime by) override {
+        skipped_ += by;
+        armed_ = never;  // the timer is for a moment that comes sooner now
+    }
+
     asio::io_context& context_;
     asio::steady_timer timer_;
     double speed_;
-    std::function<void()> on_wake_;
     std::chrono::steady_clock::time_point origin_;
+    bool started_ = false;
+    SimTime skipped_{0};
     SimTime armed_ = never;
 };
 
@@ -67,20 +148,21 @@ class JumpingClock final : public Clock {
   public:
     explicit JumpingClock(asio::io_context& context) : context_(context) {}
 
-    void start(std::function<void()> on_wake) override { on_wake_ = std::move(on_wake); }
-    SimTime now() const override { return now_; }
-    void wake_at(SimTime when) override { wake_ = when; }
+    void start() override {}
 
     void run() override {
+        SimTime next = never;
         while (!context_.stopped()) {
-            for (int i = 0; i < steps_per_poll && wake_ != never && !context_.stopped(); ++i) {
-                now_ = std::max(now_, std::exchange(wake_, never));
-                on_wake_();
+            next = earliest();
+            for (int i = 0; i < steps_per_poll && next != never && !context_.stopped(); ++i) {
+                now_ = std::max(now_, next);
+                ring_due();
+                next = earliest();
             }
             if (context_.stopped()) {
                 return;
             }
-            if (wake_ == never) {
+            if (next == never) {
                 context_.run_one();
             } else {
                 context_.poll();
@@ -91,10 +173,12 @@ class JumpingClock final : public Clock {
   private:
     static constexpr int steps_per_poll = 64;
 
+    SimTime time() const override { return now_; }
+    void arm(SimTime) override {}
+    void skipped(SimTime by) override { now_ += by; }
+
     asio::io_context& context_;
-    std::function<void()> on_wake_;
     SimTime now_{0};
-    SimTime wake_ = never;
 };
 
 }  // namespace

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include "emulator/host/time_text.h"
 #include "emulator/printer/sim_time.h"
@@ -14,8 +16,32 @@ namespace fauxboard::host {
 
 using printer::SimTime;
 
-/// Where virtual time comes from, and the alarm that goes with it. clock.cpp is the only code of the project
-/// that reads the real clock.
+class Clock;
+
+/// Rings once at a moment of virtual time, never before it. Its clock outlives it. What it calls must not
+/// throw; it may set and destroy any alarm, also this one.
+class Alarm {
+  public:
+    Alarm(Clock& clock, std::function<void()> on_ring);
+    ~Alarm();
+    Alarm(const Alarm&) = delete;
+    Alarm& operator=(const Alarm&) = delete;
+
+    /// Asks for one call of on_ring at `when` (on the loop's next turn if that is past); replaces what was
+    /// asked before. `printer::never` asks for none.
+    void at(SimTime when);
+
+  private:
+    friend class Clock;
+
+    Clock& clock_;
+    std::shared_ptr<const std::function<void()>> on_ring_;
+    SimTime when_ = printer::never;
+    std::uint64_t round_ = 0;  ///< of ringing, in which it rang last
+};
+
+/// Where virtual time comes from, and the alarms that go with it. clock.cpp is the only code of the project
+/// that reads the real clock. Alarms ring in the order of their times, of equal times the one made first.
 class Clock {
   public:
     Clock() = default;
@@ -23,15 +49,42 @@ class Clock {
     Clock& operator=(const Clock&) = delete;
     virtual ~Clock() = default;
 
-    /// Virtual time goes on from 0 now. `on_wake` is called from run() only.
-    virtual void start(std::function<void()> on_wake) = 0;
+    /// Virtual time goes on from 0 now; it is 0 until then. Alarms may be set before.
+    virtual void start() = 0;
     /// Never goes back.
-    virtual SimTime now() const = 0;
-    /// Asks for one call of on_wake at `when` (at once if that is past); replaces what was asked before. It
-    /// may come too early: ask again then. `printer::never` asks for none.
-    virtual void wake_at(SimTime when) = 0;
+    SimTime now() const { return skipping_at_ != printer::never ? skipping_at_ : time(); }
+    /// Not set yet. It rings from run() and skip() only.
+    std::unique_ptr<Alarm> make_alarm(std::function<void()> on_ring) {
+        return std::make_unique<Alarm>(*this, std::move(on_ring));
+    }
+    /// Makes time jump forward by `by`, which is not negative, and rings what is due on the way, each at its
+    /// moment. Descriptors get no turn. Called from inside an alarm or a skip it throws std::logic_error.
+    void skip(SimTime by);
     /// Runs the event loop until somebody calls its stop(), or it has nothing left to wait for.
     virtual void run() = 0;
+
+  protected:
+    /// Virtual time, when nobody skips.
+    virtual SimTime time() const = 0;
+    /// ring_due() is to be called at `when`, or earlier; never called with an alarm ringing.
+    virtual void arm(SimTime when) = 0;
+    /// All time() to come is so much later.
+    virtual void skipped(SimTime by) = 0;
+
+    /// Rings what is due, each alarm once: one that wants to ring again at once waits for the next round, so
+    /// that others get their turn. Then arms for what comes next.
+    void ring_due();
+    /// When the next alarm is due.
+    SimTime earliest() const;
+
+  private:
+    friend class Alarm;
+    void ring_round(SimTime now);
+
+    std::vector<Alarm*> alarms_;  ///< few: a board, its faults, a script
+    std::uint64_t round_ = 0;
+    bool ringing_ = false;
+    SimTime skipping_at_ = printer::never;
 };
 
 /// Real time, scaled; or, at Speed::max, time that jumps from one alarm to the next and looks at the event

@@ -14,16 +14,20 @@ constexpr std::size_t bytes_at_once = 512;
 }  // namespace
 
 LiveBoard::LiveBoard(board::Board& board, link::Link& link, Clock& clock, LiveObserver* observer)
-    : board_(board), link_(link), clock_(clock), observer_(observer) {}
+    : board_(board),
+      link_(link),
+      clock_(clock),
+      alarm_(clock.make_alarm([this] { wake(); })),
+      observer_(observer) {}
 
 void LiveBoard::start(SimTime duration, std::function<void()> on_end) {
     end_ = duration;
     on_end_ = std::move(on_end);
     running_ = true;
-    clock_.start([this] { wake(); });
+    clock_.start();
     board_.power_on(SimTime{0});
     send_output();
-    clock_.wake_at(SimTime{0});
+    alarm_->at(SimTime{0});
 }
 
 SimTime LiveBoard::now() const {
@@ -51,11 +55,11 @@ void LiveBoard::catch_up(SimTime now) {
 void LiveBoard::settle(SimTime now) {
     if (now >= end_ && due_ > now) {
         running_ = false;
-        clock_.wake_at(printer::never);
+        alarm_->at(printer::never);
         std::exchange(on_end_, {})();
         return;
     }
-    clock_.wake_at(std::min(due_, end_));
+    alarm_->at(std::min(due_, end_));
 }
 
 void LiveBoard::wake() {

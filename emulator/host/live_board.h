@@ -38,6 +38,7 @@ class LiveBoard final : public link::LinkListener {
     board::Board& board_;
     link::Link& link_;
     Clock& clock_;
+    std::unique_ptr<Alarm> alarm_;
     LiveObserver* observer_;
     std::function<void()> on_end_;
     SimTime end_{0};

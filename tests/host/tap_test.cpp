@@ -74,7 +74,7 @@ struct FakeTap {
 
 TEST_CASE("what one end says is written to the other at once, and told with its time") {
     FakeTap f;
-    f.clock.time = SimTime{1'234};
+    f.clock.hand = SimTime{1'234};
     f.a.listener->on_bytes("abc");
     f.b.listener->on_bytes("xyz");
     CHECK(f.b.written == "abc");
@@ -93,7 +93,7 @@ TEST_CASE("an end that takes no more holds up the one that sends, and counts as 
     CHECK(f.a.held);
     CHECK_FALSE(f.b.held);
     CHECK(f.tap.delay().count() == 0);
-    f.clock.time += SimTime{500};
+    f.clock.hand += SimTime{500};
     f.b.waiting = 0;
     f.b.listener->on_drained();
     CHECK_FALSE(f.a.held);
