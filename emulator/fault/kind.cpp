@@ -1,0 +1,150 @@
+#include "emulator/fault/kind.h"
+
+#include <algorithm>
+#include <array>
+
+#include "emulator/fault/kind_rows.h"
+#include "emulator/fault/quantity.h"
+
+namespace fauxboard::fault {
+namespace {
+
+constexpr std::array<const Kind*, 11> table{
+    &rows::drop,  &rows::garble,    &rows::duplicate,      &rows::delay,   &rows::slow,       &rows::cut,
+    &rows::merge, &rows::nul_burst, &rows::wrong_checksum, &rows::silence, &rows::disconnect,
+};
+
+constexpr double most_lines = 1e9;
+constexpr double longest_us = 100.0 * 365 * 24 * 3600e6;
+
+/// The rows' get and set for a member of Trigger, by its type.
+template <auto Member>
+constexpr auto get_of = [](const FaultSpec& spec) -> std::optional<double> {
+    const auto& value = spec.trigger.*Member;
+    if (!value) {
+        return std::nullopt;
+    }
+    if constexpr (requires { value->count(); }) {
+        return static_cast<double>(value->count());
+    } else {
+        return static_cast<double>(*value);
+    }
+};
+template <auto Member>
+constexpr auto set_of = [](FaultSpec& spec, double value) {
+    auto& slot = spec.trigger.*Member;
+    using T = typename std::remove_reference_t<decltype(slot)>::value_type;
+    if constexpr (std::is_same_v<T, SimTime>) {
+        slot = SimTime{static_cast<SimTime::rep>(value)};
+    } else {
+        slot = static_cast<T>(value);
+    }
+};
+
+constexpr std::array<std::string_view, 3> directions{"to_screen", "to_board", "both"};
+constexpr std::array<CommonAttribute, 10> common{{
+    {{"direction", AttributeType::choice, 2, 0, 2, "which way the spoiled bytes go", directions},
+     [](const FaultSpec& s) -> std::optional<double> { return static_cast<double>(s.direction); },
+     [](FaultSpec& s, double v) { s.direction = static_cast<Direction>(v); }},
+    {{"probability", AttributeType::number, 1, 0, 1, "the chance of each line"},
+     get_of<&Trigger::probability>,
+     set_of<&Trigger::probability>},
+    {{"every", AttributeType::integer, 1, 1, most_lines, "only every n-th line"},
+     get_of<&Trigger::every>,
+     set_of<&Trigger::every>},
+    {{"after", AttributeType::integer, 0, 0, most_lines, "so many lines are let be first"},
+     get_of<&Trigger::after>,
+     set_of<&Trigger::after>},
+    {{"count", AttributeType::integer, {}, 1, most_lines, "acts at most so often, per direction"},
+     get_of<&Trigger::count>,
+     set_of<&Trigger::count>},
+    {{"from",
+      AttributeType::time,
+      {},
+      0,
+      longest_us,
+      "virtual time at which it begins; else when it is added"},
+     get_of<&Trigger::from>,
+     set_of<&Trigger::from>},
+    {{"until", AttributeType::time, {}, 0, longest_us, "virtual time at which it ends"},
+     get_of<&Trigger::until>,
+     set_of<&Trigger::until>},
+    {{"for", AttributeType::time, {}, 1, longest_us, "ends so long after it began"},
+     get_of<&Trigger::length>,
+     set_of<&Trigger::length>},
+    {{"at",
+      AttributeType::time,
+      {},
+      0,
+      longest_us,
+      "virtual time; acts once, on the first line from then on (silence, disconnect: at that moment)"},
+     get_of<&Trigger::at>,
+     set_of<&Trigger::at>},
+    {{"seed", AttributeType::integer, 1, 0, 4294967295.0, "the same seed spoils the same bytes"},
+     [](const FaultSpec& s) -> std::optional<double> { return static_cast<double>(s.seed); },
+     [](FaultSpec& s, double v) { s.seed = static_cast<std::uint64_t>(v); }},
+}};
+
+Json describe(const Attribute& attribute) {
+    Json out{{"name", attribute.name}, {"type", type_name(attribute.type)}};
+    if (attribute.fallback) {
+        out["default"] = attribute_json(attribute, *attribute.fallback);
+    }
+    if (attribute.type == AttributeType::choice) {
+        out["choices"] = attribute.choices;
+    } else {
+        out["min"] = attribute_json(attribute, attribute.min);
+        out["max"] = attribute_json(attribute, attribute.max);
+    }
+    out["help"] = attribute.help;
+    return out;
+}
+
+}  // namespace
+
+std::size_t LineEdit::text_size() const {
+    std::size_t size = bytes.size();
+    if (size != 0 && bytes[size - 1] == '\n') {
+        --size;
+    }
+    if (size != 0 && bytes[size - 1] == '\r') {
+        --size;
+    }
+    return size;
+}
+
+std::span<const Kind* const> kinds() {
+    return table;
+}
+
+const Kind* find_kind(std::string_view name) {
+    const auto hit =
+        std::find_if(table.begin(), table.end(), [&](const Kind* kind) { return kind->name == name; });
+    return hit == table.end() ? nullptr : *hit;
+}
+
+std::span<const CommonAttribute> common_attributes() {
+    return common;
+}
+
+bool takes_common(const Kind& kind, std::string_view name) {
+    return std::none_of(kind.attributes.begin(), kind.attributes.end(),
+                        [&](const Attribute& own) { return own.name == name; });
+}
+
+Json describe_kinds() {
+    Json out{{"common", Json::array()}, {"kinds", Json::array()}};
+    for (const CommonAttribute& attribute : common) {
+        out["common"].push_back(describe(attribute));
+    }
+    for (const Kind* kind : table) {
+        Json row{{"name", kind->name}, {"help", kind->help}, {"attributes", Json::array()}};
+        for (const Attribute& attribute : kind->attributes) {
+            row["attributes"].push_back(describe(attribute));
+        }
+        out["kinds"].push_back(std::move(row));
+    }
+    return out;
+}
+
+}  // namespace fauxboard::fault
