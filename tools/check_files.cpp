@@ -6,6 +6,7 @@
 
 #include "emulator/behaviour/profile.h"
 #include "emulator/host/profile_files.h"
+#include "emulator/screen/screen_profile.h"
 
 namespace fauxboard::tools {
 namespace {
@@ -15,7 +16,18 @@ using behaviour::Problem;
 using behaviour::SourceText;
 
 constexpr std::uintmax_t max_bytes = 4U * 1024 * 1024;
-constexpr std::string_view schema_file = "profile.schema.json";
+
+/// A kind of file: what its "$schema" names, and who knows its meaning.
+struct Kind {
+    std::string_view schema;
+    void (*load)(const SourceText& source);  ///< throws behaviour::ProfileError
+};
+constexpr Kind kinds[] = {
+    {"profile.schema.json",
+     [](const SourceText& source) { behaviour::load_profile(source, host::profile_finder()); }},
+    {"screen.schema.json",
+     [](const SourceText& source) { screen::load_screen(source, host::profile_finder()); }},
+};
 
 std::optional<SourceText> read(const fs::path& file) {
     std::error_code error;
@@ -30,16 +42,19 @@ std::optional<SourceText> read(const fs::path& file) {
                       std::string(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>())};
 }
 
-/// The file itself; else a profile of that name.
+/// The file itself; else a profile or a screen of that name.
 std::optional<SourceText> find(const std::string& file) {
     auto source = read(file);
     if (!source && file.find('/') == std::string::npos) {
         source = host::profile_finder()(file, {});
+        for (const fs::path& folder : host::profile_folders()) {
+            if (!source) source = read(folder / "screens" / (file + ".json"));
+        }
     }
     return source;
 }
 
-std::optional<nlohmann::json> load_schema() {
+std::optional<nlohmann::json> load_schema(std::string_view schema_file) {
     for (const fs::path& folder : host::profile_folders()) {
         if (const auto source = read(folder / "schemas" / schema_file)) {
             auto schema = nlohmann::json::parse(source->text, nullptr, false);
@@ -51,11 +66,25 @@ std::optional<nlohmann::json> load_schema() {
     return std::nullopt;
 }
 
-/// What kind of file it is: its "$schema" says so; without one it is taken for a profile.
-bool is_profile(const behaviour::Document& document) {
+/// What kind of file it is: its "$schema" says so; without one it is taken for a profile. Null: no known one.
+const Kind* kind_of(const behaviour::Document& document) {
     const auto schema = document.root.find("$schema");
-    return schema == document.root.end() ||
-           (schema->is_string() && fs::path(schema->get_ref<const std::string&>()).filename() == schema_file);
+    if (schema == document.root.end()) {
+        return &kinds[0];
+    }
+    const std::string name =
+        schema->is_string() ? fs::path(schema->get_ref<const std::string&>()).filename().string() : "";
+    const auto* const hit = std::find_if(std::begin(kinds), std::end(kinds),
+                                         [&](const Kind& kind) { return kind.schema == name; });
+    return hit == std::end(kinds) ? nullptr : hit;
+}
+
+std::string known_schemas() {
+    std::string out;
+    for (const Kind& kind : kinds) {
+        out += (out.empty() ? "" : " or ") + std::string(kind.schema);
+    }
+    return out;
 }
 
 /// Whether the loader has something to say about this place, what is in it, or what it is in.
@@ -68,10 +97,11 @@ bool told(const std::vector<Problem>& problems, const std::string& file, const s
     });
 }
 
-void check_form(const behaviour::Document& document, const SourceText& source, CheckedFile& out) {
-    const auto schema = load_schema();
+void check_form(const behaviour::Document& document, const SourceText& source, const Kind& kind,
+                CheckedFile& out) {
+    const auto schema = load_schema(kind.schema);
     if (!schema) {
-        out.remark = "not checked against the schema: there is no schemas/" + std::string(schema_file) +
+        out.remark = "not checked against the schema: there is no schemas/" + std::string(kind.schema) +
                      " in the profiles' folders";
         return;
     }
@@ -95,17 +125,18 @@ CheckedFile check_file(const std::string& file) {
     }
     try {
         const behaviour::Document document = behaviour::parse_document(*source);
-        if (!is_profile(document)) {
+        const Kind* const kind = kind_of(document);
+        if (kind == nullptr) {
             out.problems.push_back(document.problem(
-                "/$schema", "unknown kind of file; expected the path of " + std::string(schema_file)));
+                "/$schema", "unknown kind of file; expected the path of " + known_schemas()));
             return out;
         }
         try {
-            behaviour::load_profile(*source, host::profile_finder());
+            kind->load(*source);
         } catch (const behaviour::ProfileError& error) {
             out.problems = error.problems();
         }
-        check_form(document, *source, out);
+        check_form(document, *source, *kind, out);
     } catch (const behaviour::ProfileError& error) {
         out.problems = error.problems();  // no JSON at all
     }

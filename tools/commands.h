@@ -19,6 +19,7 @@ enum class ExitCode : int {
 void add_run(CLI::App& app, ExitCode& exit);
 void add_send(CLI::App& app, ExitCode& exit);
 void add_replay(CLI::App& app, ExitCode& exit);
+void add_screen(CLI::App& app, ExitCode& exit);
 void add_tap(CLI::App& app, ExitCode& exit);
 void add_decode(CLI::App& app, ExitCode& exit);
 void add_check(CLI::App& app, ExitCode& exit);

@@ -17,6 +17,8 @@
 #include <vector>
 
 #include "emulator/host/host_error.h"
+#include "emulator/host/screen_files.h"
+#include "emulator/host/screen_judge.h"
 #include "emulator/host/transcript.h"
 #include "emulator/host/transcript_words.h"
 #include "tools/report.h"
@@ -29,11 +31,13 @@ constexpr const char* legend =
   {"t": 16.451778, "from": "screen", "line": "..."}   what run, tap and replay record
   15:15:12.123456789 - line                           one direction a file; several are merged by time
   anything else                                       the line itself
-Marks at the start of a line: ! its checksum is wrong, ? its code or a field is unknown, x it cannot be read.
+Marks at the start of a line: ! its checksum is wrong, ? its code or a field is unknown, x it cannot be read,
+* anything else: with --screen, what that screen would have ignored, missed, cut, dropped, misread or crashed on.
 For lines that do not say who said them, that is told by what they say.)";
 
 struct DecodeOptions {
     std::vector<std::string> files;
+    std::string screen;  ///< name or file; empty: no screen judges
     bool json = false;
 };
 
@@ -78,7 +82,10 @@ ExitCode decode(const DecodeOptions& options) {
         std::ios::sync_with_stdio(false);  // so that lines of a pipe are taken as they come
         Inputs inputs(options.files);
         const bool live = options.files.empty();
-        const std::vector<host::LineJudge> judges = host::line_judges();
+        std::vector<host::LineJudge> judges = host::line_judges();
+        if (!options.screen.empty()) {
+            judges.push_back(host::screen_judge(host::load_screen_by_name(options.screen)));
+        }
         host::Transcripts transcripts(inputs.take());
         while (auto entry = transcripts.next()) {
             const host::JudgedLine line = host::judge(std::move(*entry), judges);
@@ -93,6 +100,8 @@ ExitCode decode(const DecodeOptions& options) {
         }
         std::fflush(stdout);
         return ExitCode::ok;
+    } catch (const behaviour::ProfileError& error) {
+        return complain("decode", ExitCode::bad_input, error.what());
     } catch (const host::HostError& error) {
         return complain("decode", ExitCode::bad_input, error.what());
     }
@@ -104,6 +113,12 @@ void add_decode(CLI::App& app, ExitCode& exit) {
     CLI::App* command = app.add_subcommand("decode", "Say in words what each line of a recording means");
     const auto options = std::make_shared<DecodeOptions>();
     command->add_option("FILE", options->files, "Recordings; none or '-': standard input");
+    command
+        ->add_option(
+            "--screen", options->screen,
+            "Judge the board's lines as this screen would take them: a name of `fauxboard profiles`, or "
+            "a file")
+        ->type_name("NAME|FILE");
     command->add_flag("--json", options->json, "One JSON object a line; timed ones are a recording again");
     command->footer(legend);
     command->callback([options, &exit] { exit = decode(*options); });

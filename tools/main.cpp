@@ -82,6 +82,7 @@ int run_app(int argc, char** argv) {
     add_run(app, exit);
     add_send(app, exit);
     add_replay(app, exit);
+    add_screen(app, exit);
     add_tap(app, exit);
     add_decode(app, exit);
     add_check(app, exit);

@@ -1,12 +1,18 @@
-// `fauxboard profiles`: the boards that `run --profile` knows by name.
+// `fauxboard profiles`: the boards that `run --profile` and the touch screens that `screen --screen` know by
+// name.
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "emulator/host/profile_files.h"
+#include "emulator/host/screen_files.h"
 #include "tools/report.h"
 
 namespace fauxboard::tools {
@@ -14,40 +20,60 @@ namespace {
 
 using host::ProfileEntry;
 
-std::string table(const std::vector<ProfileEntry>& profiles) {
-    if (profiles.empty()) {
+struct Listed {
+    std::string_view kind;  ///< what it is a profile of: "board" or "screen"
+    ProfileEntry entry;
+};
+
+std::vector<Listed> everything() {
+    std::vector<Listed> out;
+    for (ProfileEntry& entry : host::list_profiles()) {
+        out.push_back({"board", std::move(entry)});
+    }
+    for (ProfileEntry& entry : host::list_screens()) {
+        out.push_back({"screen", std::move(entry)});
+    }
+    return out;
+}
+
+std::string table(const std::vector<Listed>& list) {
+    if (list.empty()) {
         return "There are no profiles. Name their folder in FAUXBOARD_PROFILES.\n";
     }
     std::size_t name = 4;
     std::size_t title = 5;
-    for (const ProfileEntry& entry : profiles) {
-        name = std::max(name, entry.name.size());
-        title = std::max(title, entry.title.size());
+    for (const Listed& one : list) {
+        name = std::max(name, one.entry.name.size());
+        title = std::max(title, one.entry.title.size());
     }
-    std::string text = fmt::format("{:<{}}  {:<{}}  {}\n", "NAME", name, "TITLE", title, "FILE");
-    for (const ProfileEntry& entry : profiles) {
-        text +=
-            fmt::format("{:<{}}  {:<{}}  {}\n", entry.name, name, entry.title, title, entry.file.string());
+    std::string text =
+        fmt::format("{:<6}  {:<{}}  {:<{}}  {}\n", "KIND", "NAME", name, "TITLE", title, "FILE");
+    for (const Listed& one : list) {
+        text += fmt::format("{:<6}  {:<{}}  {:<{}}  {}\n", one.kind, one.entry.name, name, one.entry.title,
+                            title, one.entry.file.string());
     }
     return text;
 }
 
-std::string json(const std::vector<ProfileEntry>& profiles) {
-    nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    for (const ProfileEntry& entry : profiles) {
-        list.push_back({{"name", entry.name}, {"title", entry.title}, {"file", entry.file.string()}});
+std::string json(const std::vector<Listed>& list) {
+    nlohmann::ordered_json out = nlohmann::ordered_json::array();
+    for (const Listed& one : list) {
+        out.push_back({{"name", one.entry.name},
+                       {"kind", one.kind},
+                       {"title", one.entry.title},
+                       {"file", one.entry.file.string()}});
     }
-    return list.dump(2, ' ', true, nlohmann::json::error_handler_t::replace) + "\n";
+    return out.dump(2, ' ', true, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace
 
 void add_profiles(CLI::App& app, ExitCode& exit) {
-    CLI::App* command = app.add_subcommand("profiles", "List the boards that there are");
+    CLI::App* command = app.add_subcommand("profiles", "List the boards and the screens that there are");
     const auto as_json = std::make_shared<bool>(false);
     command->add_flag("--json", *as_json, "As a JSON array");
     command->callback([as_json, &exit] {
-        const std::vector<ProfileEntry> list = host::list_profiles();
+        const std::vector<Listed> list = everything();
         print(*as_json ? json(list) : table(list));
         exit = ExitCode::ok;
     });

@@ -95,8 +95,12 @@ std::shared_ptr<const behaviour::Profile> load_profile_by_name(std::string_view 
 }
 
 std::vector<ProfileEntry> list_profiles() {
+    return list_profiles(profile_folders());
+}
+
+std::vector<ProfileEntry> list_profiles(const std::vector<fs::path>& folders) {
     std::vector<ProfileEntry> entries;
-    for (const fs::path& folder : profile_folders()) {
+    for (const fs::path& folder : folders) {
         std::error_code error;
         for (const auto& item : fs::directory_iterator(folder, error)) {
             if (item.path().extension() != ".json") {

@@ -31,5 +31,7 @@ struct ProfileEntry {
 };
 /// All profiles in profile_folders(), by name; files that are no profiles are passed over.
 std::vector<ProfileEntry> list_profiles();
+/// The same of other folders.
+std::vector<ProfileEntry> list_profiles(const std::vector<std::filesystem::path>& folders);
 
 }  // namespace fauxboard::host

@@ -118,7 +118,7 @@ Listener::State Listener::state(SimTime now) const {
     bool all = true;
     for (const Wanted& one : wanted_) {
         if (one.came) continue;
-        if (now >= start_ + one.what.within) return State::failed;
+        if (now >= start_ + one.what.within + slack_) return State::failed;
         all = false;
     }
     return all ? State::met : State::waiting;
@@ -130,7 +130,7 @@ SimTime Listener::deadline() const {
     }
     SimTime first = printer::never;
     for (const Wanted& one : wanted_) {
-        if (!one.came) first = std::min(first, start_ + one.what.within);
+        if (!one.came) first = std::min(first, start_ + one.what.within + slack_);
     }
     return first;
 }

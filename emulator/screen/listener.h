@@ -17,6 +17,8 @@ class Listener {
     void expect_silence() { wanted_.clear(); }
     /// The clock of all limits starts.
     void start(SimTime now) { start_ = now; }
+    /// What must come may be so much later than its limit.
+    void set_slack(SimTime slack) { slack_ = slack; }
 
     void take(const Screen& screen, const Judgement& judgement);
 
@@ -48,6 +50,7 @@ class Listener {
     bool disturbed_ = false;  ///< something came that was neither asked for nor known to come by itself
     SimTime silence_{0};
     SimTime start_{0};
+    SimTime slack_{0};
 };
 
 }  // namespace fauxboard::screen

@@ -52,7 +52,8 @@ bool has_button(const ScreenProfile& profile, std::size_t page, std::size_t butt
 }
 
 /// Dijkstra over the pages; there are few, so the nearest is looked for by hand.
-std::optional<std::vector<Step>> walk(const Standpoint& from, std::size_t button, bool anyway) {
+template <class IsGoal>
+std::optional<std::vector<Step>> walk(const Standpoint& from, IsGoal&& is_goal, bool anyway) {
     struct Node {
         unsigned cost = ~0U;
         std::size_t came_from = no_page;
@@ -72,7 +73,7 @@ std::optional<std::vector<Step>> walk(const Standpoint& from, std::size_t button
         if (best == no_page) {
             return std::nullopt;
         }
-        if (has_button(from.profile, best, button)) {
+        if (is_goal(best)) {
             std::vector<Step> steps;
             for (std::size_t at = best; at != from.page; at = nodes[at].came_from) {
                 steps.insert(steps.begin(), nodes[at].by);
@@ -158,7 +159,13 @@ std::optional<std::vector<Step>> find_route(const Standpoint& from, std::size_t 
     if (!wanted.rows && !from.visible(wanted, row)) {
         return std::nullopt;
     }
-    return walk(from, button, false);
+    return walk(
+        from, [&](std::size_t page) { return has_button(from.profile, page, button); }, false);
+}
+
+std::optional<std::vector<Step>> find_route_to_page(const Standpoint& from, std::size_t page) {
+    return walk(
+        from, [page](std::size_t here) { return here == page; }, false);
 }
 
 std::string why_no_route(const Standpoint& from, std::size_t button, std::size_t row) {
@@ -169,7 +176,9 @@ std::string why_no_route(const Standpoint& from, std::size_t button, std::size_t
         }
     }
     std::size_t page = from.page;
-    for (const Step& step : walk(from, button, true).value_or(std::vector<Step>{})) {
+    const auto way = walk(
+        from, [&](std::size_t id) { return has_button(from.profile, id, button); }, true);
+    for (const Step& step : way.value_or(std::vector<Step>{})) {
         const Standpoint here{from.profile, from.values, page, from.before};
         const Button& next = from.profile.buttons[step.button];
         if (std::string why = here.hidden(next, 0); !why.empty()) {

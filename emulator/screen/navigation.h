@@ -26,6 +26,13 @@ struct Resolved {
 Resolved resolve(const ScreenProfile& profile, std::span<const Shown> values, std::size_t page,
                  std::string_view path);
 
+/// What the path of a page means: the whole of it or its end from a slash on, small or capital.
+struct ResolvedPage {
+    std::optional<std::size_t> page;
+    std::string sentence;  ///< why there is none: the nearest, or the candidates
+};
+ResolvedPage resolve_page(const ScreenProfile& profile, std::string_view path);
+
 /// One touch.
 struct Step {
     std::size_t button = 0;
@@ -55,6 +62,9 @@ struct Standpoint {
 /// The touches that lead from where the screen stands to a page with this button, those that send least
 /// first. Nothing when there is no way now.
 std::optional<std::vector<Step>> find_route(const Standpoint& from, std::size_t button, std::size_t row);
+
+/// The same to a page. Empty when it is open already.
+std::optional<std::vector<Step>> find_route_to_page(const Standpoint& from, std::size_t page);
 
 /// Why find_route() found nothing: what keeps the way shut.
 std::string why_no_route(const Standpoint& from, std::size_t button, std::size_t row);

@@ -189,4 +189,31 @@ Resolved resolve(const ScreenProfile& profile, std::span<const Shown> values, st
     return out;
 }
 
+ResolvedPage resolve_page(const ScreenProfile& profile, std::string_view path) {
+    ResolvedPage out;
+    std::vector<std::string> found;
+    std::vector<std::string_view> paths;
+    for (std::size_t id = 0; id < profile.pages.size(); ++id) {
+        const std::string& full = profile.pages[id].path;
+        paths.emplace_back(full);
+        if (same(full, path, true)) {
+            return {id, {}};
+        }
+        if (ends_so(full, path, true)) {
+            out.page = id;
+            found.push_back('"' + full + '"');
+        }
+    }
+    if (found.size() > 1) {
+        out.page.reset();
+        out.sentence = fmt::format("\"{}\" may be {}; write more of its path", printable(path),
+                                   fmt::join(found, ", "));
+    } else if (found.empty()) {
+        const std::string_view near = behaviour::nearest(path, paths);
+        out.sentence = fmt::format("there is no page \"{}\"{}", printable(path.substr(0, 100)),
+                                   near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near));
+    }
+    return out;
+}
+
 }  // namespace fauxboard::screen

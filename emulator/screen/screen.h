@@ -68,6 +68,12 @@ class Screen {
     /// Touches one button of the page that is open. `row` as in Step, `input` the number typed in.
     PressResult touch(std::size_t button, std::size_t row, std::optional<double> input, SimTime now);
 
+    /// Touches the screen where no button is: it does not fall back to another page for a while.
+    void touch_beside(SimTime now) {
+        catch_up(now);
+        touched_ = time_;
+    }
+
     /// The open page as a person would see it: title, values, buttons ("(Home)" is a button that stays shut
     /// now). UTF-8, lines of at most some 78 columns, stable.
     std::string show() const { return show_page(page_); }

@@ -39,7 +39,16 @@ std::string_view tour_verdict_words(TourVerdict verdict) {
     return verdict == TourVerdict::met ? "met" : verdict == TourVerdict::not_met ? "not met" : "not pressed";
 }
 
-Tour::Tour(Screen& screen) : screen_(screen), seen_(screen.counters().lines_received) {
+Tour::Tour(Screen& screen, std::vector<std::string> paths, SimTime slack)
+    : screen_(screen),
+      slack_(slack),
+      paths_(std::move(paths)),
+      order_(paths_.size()),
+      seen_(screen.counters().lines_received) {
+    listener_.set_slack(slack);
+}
+
+Tour::Tour(Screen& screen, SimTime slack) : Tour(screen, {}, slack) {
     order_.resize(screen.profile().buttons.size());
     for (std::size_t i = 0; i < order_.size(); ++i) {
         order_[i] = i;
@@ -108,8 +117,13 @@ bool Tour::step() {
 
 void Tour::start_next() {
     Goal goal;
-    goal.button = order_[next_++];
     goal.recorded = true;
+    if (!paths_.empty()) {
+        start_press(goal, paths_[next_++]);
+        goals_.push_back(std::move(goal));
+        return;
+    }
+    goal.button = order_[next_++];
     goal.result.button = screen_.profile().buttons[goal.button].path;
     if (next_ == 1) {
         goal.steps = pointers(screen_.profile().tour_first);
@@ -117,6 +131,23 @@ void Tour::start_next() {
     const auto own = pointers(screen_.profile().buttons[goal.button].prepare);
     goal.steps.insert(goal.steps.end(), own.begin(), own.end());
     goals_.push_back(std::move(goal));
+}
+
+void Tour::start_press(Goal& goal, const std::string& path) {
+    const auto page = static_cast<std::size_t>(&screen_.page() - screen_.profile().pages.data());
+    const Resolved meant = resolve(screen_.profile(), screen_.values(), page, path);
+    goal.result.button = path;
+    if (!meant.button) {
+        give_up(goal, meant.sentence);
+        return;
+    }
+    goal.button = *meant.button;
+    goal.row = meant.row;
+    goal.input = meant.input;
+    goal.phase = Phase::walking;
+    goal.result.button = screen_.profile().buttons[goal.button].path;
+    if (goal.row != 0) goal.result.button += fmt::format(" {}", goal.row);
+    if (goal.input) goal.result.button += '=' + short_text(*goal.input);
 }
 
 bool Tour::show_frame(std::string_view body) {
@@ -151,7 +182,7 @@ bool Tour::prepare(Goal& goal) {
         return true;
     }
     if (step.kind == Prepare::Kind::wait_for) {
-        limit_ = screen_.time() + step.limit;
+        limit_ = screen_.time() + step.limit + slack_;
         return true;
     }
     ++goal.prepared;
@@ -181,7 +212,7 @@ bool Tour::walk(Goal& goal) {
     if (route && goal.touches < most_touches) {
         return route->empty() ? touch(goal) : touch_on_the_way(goal, route->front());
     }
-    if (button.page != no_page) {
+    if (button.page != no_page && paths_.empty()) {
         const auto& frames = screen_.profile().pages[button.page].opened_by;
         if (goal.shown < frames.size()) {
             goal.remark +=
@@ -191,6 +222,13 @@ bool Tour::walk(Goal& goal) {
     }
     give_up(goal, why_no_route(screen_.standpoint(), goal.button, goal.row));
     return true;
+}
+
+void Tour::wait_for_lines() {
+    wake_ = listener_.deadline();
+    if (slack_ != SimTime{0}) {
+        wake_ = std::min(wake_, screen_.time() + screen_.profile().idle / 2);
+    }
 }
 
 bool Tour::touch_on_the_way(Goal& goal, const Step& step) {
@@ -207,7 +245,7 @@ bool Tour::touch_on_the_way(Goal& goal, const Step& step) {
     }
     listener_.start(screen_.time());
     goal.phase = Phase::listening_on_the_way;
-    wake_ = listener_.deadline();
+    wait_for_lines();
     return true;
 }
 
@@ -227,14 +265,17 @@ bool Tour::touch(Goal& goal) {
     goal.result.expected = listener_.expected_words();
     listener_.start(screen_.time());
     goal.phase = Phase::listening;
-    wake_ = listener_.deadline();
+    wait_for_lines();
     return true;
 }
 
 bool Tour::listen(Goal& goal) {
     const Listener::State state = listener_.state(screen_.time());
     if (state == Listener::State::waiting) {
-        wake_ = listener_.deadline();
+        if (slack_ != SimTime{0}) {  // the page would not have fallen back before a reply in time
+            screen_.touch_beside(screen_.time());
+        }
+        wait_for_lines();
         return false;
     }
     const bool on_the_way = goal.phase == Phase::listening_on_the_way;
@@ -251,7 +292,9 @@ bool Tour::listen(Goal& goal) {
         fmt::format("{}: sent {}; expected {}; came {}{}{}", result.button, quoted(result.sent),
                     met ? fmt::format("{}", fmt::join(result.expected, ", and ")) : listener_.missing_words(),
                     quoted(result.came), met ? " within " + seconds(result.took) : "", goal.remark);
-    hold_ = screen_.time() + screen_.profile().buttons[goal.button].settle;
+    if (paths_.empty()) {
+        hold_ = screen_.time() + screen_.profile().buttons[goal.button].settle;
+    }
     return true;
 }
 
@@ -265,6 +308,9 @@ void Tour::give_up(Goal& goal, const std::string& why) {
 void Tour::finish(Goal& goal) {
     Goal done_goal = std::move(goal);
     goals_.pop_back();
+    if (!paths_.empty() && done_goal.result.verdict == TourVerdict::not_pressed) {
+        next_ = order_.size();
+    }
     if (done_goal.recorded) {
         results_.push_back(std::move(done_goal.result));
     } else if (done_goal.result.verdict != TourVerdict::met && !goals_.empty()) {

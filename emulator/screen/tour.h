@@ -41,7 +41,12 @@ struct TourResult {
 /// screen's output to the board, give what the board says to the screen's receive(); until done().
 class Tour {
   public:
-    explicit Tour(Screen& screen);
+    /// `slack`: so much later than the profile's limit a reply may come, for a line whose own delays do not
+    /// shrink with virtual time. It makes no passing tour longer.
+    explicit Tour(Screen& screen, SimTime slack = SimTime{0});
+    /// Not the whole tour, but these buttons, in this order, as a person would press them: no preparations,
+    /// no frames shown to the screen, no waiting for the machine. Ends at the first that cannot be pressed.
+    Tour(Screen& screen, std::vector<std::string> paths, SimTime slack);
 
     /// Advances the screen and the tour. The contract of Screen::advance().
     SimTime advance(SimTime now);
@@ -72,17 +77,21 @@ class Tour {
     SimTime due() const { return wake_ < hold_ ? hold_ : wake_; }
     bool step();
     void start_next();
+    void start_press(Goal& goal, const std::string& path);
     bool prepare(Goal& goal);
     bool walk(Goal& goal);
     bool touch_on_the_way(Goal& goal, const Step& step);
     bool touch(Goal& goal);
     bool listen(Goal& goal);
+    void wait_for_lines();
     bool show_frame(std::string_view body);
     void give_up(Goal& goal, const std::string& why);
     void finish(Goal& goal);
     void collect();
 
     Screen& screen_;
+    SimTime slack_;
+    std::vector<std::string> paths_;  ///< as a person wrote them; empty: the tour
     std::vector<std::size_t> order_;
     std::size_t next_ = 0;
     std::vector<Goal> goals_;

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "emulator/behaviour/document.h"
-#include "emulator/behaviour/wire_text.h"
+#include "emulator/screen/screen_json.h"
 
 namespace fauxboard::screen {
 
@@ -29,14 +29,6 @@ std::string joined(const std::vector<std::string>& lines, std::size_t most) {
         if (starts && ++columns > most) {
             return out.substr(0, i) + "...";
         }
-    }
-    return out;
-}
-
-Json utf8(const std::vector<std::string>& lines) {
-    Json out = Json::array();
-    for (const std::string& line : lines) {
-        out.push_back(behaviour::from_wire(line));
     }
     return out;
 }
@@ -95,7 +87,8 @@ std::string tour_table(std::span<const TourResult> results) {
     return out;
 }
 
-std::string tour_json(std::string_view screen, std::span<const TourResult> results) {
+std::string tour_json(std::string_view screen, std::span<const TourResult> results,
+                      std::span<const Finding> findings) {
     Json root;
     root["screen"] = screen;
     root["passed"] = count(results, TourVerdict::met) == results.size();
@@ -107,16 +100,11 @@ std::string tour_json(std::string_view screen, std::span<const TourResult> resul
     }
     root["results"] = Json::array();
     for (const TourResult& result : results) {
-        Json one;
-        one["button"] = result.button;
-        one["verdict"] = tour_verdict_words(result.verdict);
-        one["sent"] = utf8(result.sent);
-        one["expected"] = result.expected;
-        one["came"] = utf8(result.came);
-        one["at_s"] = printer::to_seconds(result.at);
-        one["took_s"] = printer::to_seconds(result.took);
-        one["sentence"] = result.sentence;
-        root["results"].push_back(std::move(one));
+        root["results"].push_back(to_json(result));
+    }
+    root["findings"] = Json::array();
+    for (const Finding& finding : findings) {
+        root["findings"].push_back(to_json(finding));
     }
     return root.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }

@@ -11,9 +11,10 @@ namespace fauxboard::screen {
 /// A line a button and a line of sums, for a terminal; the sentences of what was not met below.
 std::string tour_table(std::span<const TourResult> results);
 
-/// {"screen": name, "passed": true, "buttons": 130, "met": 130, "results": [{"button", "verdict", "sent",
-/// "expected", "came", "at_s", "took_s", "sentence"}]}, indented. Bytes of the line are Latin-1 code points.
-std::string tour_json(std::string_view screen, std::span<const TourResult> results);
+/// {"screen": name, "passed": true, "buttons": 130, "met": 130, ..., "results": [...], "findings": [...]},
+/// indented; see screen_json.h for their objects.
+std::string tour_json(std::string_view screen, std::span<const TourResult> results,
+                      std::span<const Finding> findings = {});
 
 /// JUnit's XML: one test case a button, its page as class name, the sentence as failure.
 std::string tour_junit(std::string_view screen, std::span<const TourResult> results);

@@ -77,6 +77,8 @@ TEST_CASE("lists, for people and for programs") {
     REQUIRE(profiles.is_array());
     CHECK(std::any_of(profiles.begin(), profiles.end(),
                       [](const auto& p) { return p["name"] == "geeetech-a30"; }));
+    CHECK(std::any_of(profiles.begin(), profiles.end(),
+                      [](const auto& p) { return p["name"] == "geeetech-a30t" && p["kind"] == "screen"; }));
     CHECK(run({"ports"}).code == 0);
     CHECK(nlohmann::json::parse(run({"ports", "--json"}).out).is_array());
 }

@@ -61,12 +61,35 @@ TEST_CASE("check: what only the schema forbids is told, with its line") {
           std::string::npos);
 }
 
+TEST_CASE("check: screens, against their own meaning and schema") {
+    for (const char* name : {"smartto-screen", FAUXBOARD_SOURCE_DIR "/profiles/screens/geeetech-a30t.json",
+                             FAUXBOARD_SOURCE_DIR "/profiles/screens/geeetech-a30.json"}) {
+        const CheckedFile checked = check_file(name);
+        CHECK(checked.readable);
+        CHECK(sentences(checked) == "");
+        CHECK(checked.remark == "");
+    }
+    const TemporaryFile wrong("wrong.json", R"({
+  "$schema": "screen.schema.json",
+  "name": "wrong",
+  "extends": ")" FAUXBOARD_SOURCE_DIR R"(/profiles/screens/geeetech-a30t.json",
+  "pages": { "Main": { "shows": ["{nozle.target:.1f}"] } },
+  "idle": { "after_ms": 0.5 }
+})");
+    const std::string found = sentences(check_file(wrong.path()));
+    CHECK(found.find("wrong.json:5: /pages/Main/shows/0: ") != std::string::npos);
+    CHECK(found.find("did you mean \"nozzle.target\"?") != std::string::npos);
+    CHECK(found.find("wrong.json:6: /idle/after_ms: ") != std::string::npos);
+}
+
 TEST_CASE("check: no JSON, another kind of file, no file") {
     const TemporaryFile torn("torn.json", "{\n  \"name\": \n");
     CHECK(sentences(check_file(torn.path())).find("torn.json:3: not JSON") != std::string::npos);
     const TemporaryFile other("other.json", R"({"$schema": "schemas/coffee.schema.json", "name": "x"})");
     CHECK(sentences(check_file(other.path())) ==
-          other.path() + ":1: /$schema: unknown kind of file; expected the path of profile.schema.json\n");
+          other.path() +
+              ":1: /$schema: unknown kind of file; expected the path of profile.schema.json or "
+              "screen.schema.json\n");
     CHECK_FALSE(check_file("/no/such/file.json").readable);
     CHECK_FALSE(check_file("no-such-profile").readable);
     CHECK_FALSE(check_file("/").readable);

@@ -42,6 +42,33 @@ TEST_CASE("decode: a bad line is marked and the rest decoded; a bad file is exit
     }
 }
 
+TEST_CASE("decode --screen: what that screen would have made of the board's lines") {
+    const TemporaryFolder folder;
+    const std::string file = folder.put("talk.txt",
+                                        "L1 X1 Y2 Z3 F4\n"
+                                        "L18 P26 S15\n"
+                                        "L3 PS:0 FN:cube.gcode TM:0\n"
+                                        "L22 MS:0 MR:100\n"
+                                        "M105\n");
+    const auto lines = lines_of(run_program("decode --screen geeetech-a30 " + file).out);
+    REQUIRE(lines.size() == 5);
+    CHECK(lines[0].starts_with("  "));
+    CHECK(lines[1].starts_with("* "));
+    CHECK(lines[1].find(
+              "[geeetech-a30: would crash: the page table ends at 14, and the screen reads past it]") !=
+          std::string::npos);
+    CHECK(lines[2].find("geeetech-a30: would crash: no \" PG:\" behind \"FN:\"") != std::string::npos);
+    CHECK(lines[3].find("geeetech-a30: ignored: this screen knows no L22") != std::string::npos);
+    CHECK(lines[4].find("geeetech-a30") == std::string::npos);  // the screen's own line
+    CHECK(run_program("decode " + file).out.find("would crash") == std::string::npos);
+    const std::string json = run_program("decode --json --screen geeetech-a30 " + file).out;
+    CHECK(json.find(R"("kind":"would crash","sentence":"geeetech-a30: would crash: the page table)") !=
+          std::string::npos);
+    const Outcome none = run_program("decode --screen nosuch " + file);
+    CHECK(none.code == 3);
+    CHECK(none.out.find("there is no screen of this name; known: geeetech-a30") != std::string::npos);
+}
+
 TEST_CASE("decode: an end that nobody reads any more ends it") {
     const Outcome outcome = run_shell("yes M27 | " FAUXBOARD_PROGRAM " decode | head -n 1");
     CHECK(lines_of(outcome.out).size() == 1);

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "emulator/host/profile_files.h"
+#include "emulator/screen/screen_profile.h"
+
+namespace fauxboard::host {
+
+/// Loads a touch screen by name (from the folder `screens` in profile_folders()) or path. Throws
+/// behaviour::ProfileError, also when there is no such file; then the names that exist are told.
+std::shared_ptr<const screen::ScreenProfile> load_screen_by_name(std::string_view name);
+
+/// All screens in the folders, by name.
+std::vector<ProfileEntry> list_screens();
+
+}  // namespace fauxboard::host

@@ -1,0 +1,121 @@
+// `fauxboard screen tour`: every button, and whether what comes back is what the screen expects.
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+
+#include "emulator/host/host_error.h"
+#include "emulator/host/text_output.h"
+#include "emulator/screen/tour_report.h"
+#include "tools/report.h"
+#include "tools/screen_commands.h"
+#include "tools/screen_walk.h"
+
+namespace fauxboard::tools {
+namespace {
+
+using host::SimTime;
+
+/// A line on stderr that is written over and over, for a person at a terminal.
+class Progress {
+  public:
+    Progress() : out_(STDERR_FILENO), shown_(::isatty(STDERR_FILENO) == 1) {}
+    ~Progress() { clear(); }
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    void say(std::size_t done, std::size_t total, std::string_view last) {
+        if (shown_) {
+            out_.write(fmt::format("\r\x1b[K{:4} of {}  {}", done, total, last.substr(0, 60)));
+            dirty_ = true;
+        }
+    }
+    void clear() {
+        if (std::exchange(dirty_, false)) {
+            out_.write("\r\x1b[K");
+        }
+    }
+
+  private:
+    host::TextOutput out_;
+    bool shown_;
+    bool dirty_ = false;
+};
+
+class WholeTour final : public ScreenWalk {
+  public:
+    using ScreenWalk::ScreenWalk;
+    bool done() const { return tour() != nullptr && tour()->done(); }
+    std::size_t total() const { return session().screen().profile().buttons.size(); }
+    void clear_progress() { progress_.clear(); }
+
+  private:
+    std::unique_ptr<screen::Tour> make_tour(SimTime) override {
+        return std::make_unique<screen::Tour>(session().screen(), session().slack());
+    }
+    void on_result(const screen::TourResult& result) override {
+        progress_.say(results().size(), total(), result.button);
+    }
+    SimTime on_done(SimTime) override {
+        session().finish(tour()->passed() ? ExitCode::ok : ExitCode::failed);
+        return printer::never;
+    }
+
+    Progress progress_;
+};
+
+/// Opened before the tour, so that a wrong name is told before and not after it.
+std::ofstream open_junit(const std::string& file) {
+    std::ofstream out;
+    if (!file.empty()) {
+        errno = 0;
+        out.open(file, std::ios::binary | std::ios::trunc);
+        if (!out) {
+            throw host::HostError(
+                fmt::format("The JUnit report {} cannot be written ({}). Name a file in a folder of yours.",
+                            file, std::system_category().message(errno)));
+        }
+    }
+    return out;
+}
+
+}  // namespace
+
+ExitCode tour(const ScreenOptions& options) {
+    std::ofstream junit = open_junit(options.junit);
+    ScreenSession session(options);
+    WholeTour user(session);
+    ExitCode code = session.run(user);
+    user.clear_progress();
+    if (user.results().empty()) {
+        return code;  // it never began, and why has been said
+    }
+    if (!user.done()) {
+        complain("screen", code,
+                 fmt::format("the tour ended after {} of {} buttons{}", user.results().size(), user.total(),
+                             session.interrupted() ? ", because it was told to" : ""));
+    }
+    const std::string& name = session.screen().profile().name;
+    const auto& findings = session.screen().findings();
+    if (options.json) {
+        print(screen::tour_json(name, user.results(), findings));
+    } else {
+        print(screen::tour_table(user.results()));
+        if (!findings.empty()) {
+            print("\nWhat this screen did not take as it was meant:\n" + screen::findings_text(findings));
+        }
+    }
+    if (!options.junit.empty()) {
+        junit << screen::tour_junit(name, user.results());
+        if (!junit.flush()) {
+            code = complain("screen", ExitCode::bad_input,
+                            fmt::format("the JUnit report {} could not be written", options.junit));
+        }
+    }
+    return code;
+}
+
+}  // namespace fauxboard::tools

@@ -1,0 +1,56 @@
+#include "tools/screen_walk.h"
+
+namespace fauxboard::tools {
+namespace {
+
+using host::SimTime;
+
+/// The boot messages of a board that was switched on with the screen are over by then.
+constexpr SimTime after_first_word{700'000};
+/// A board that says anything unasked has said it by then: once round its status wheel.
+constexpr SimTime first_word{2'500'000};
+
+}  // namespace
+
+std::span<const screen::TourResult> ScreenWalk::results() const {
+    return tour_ ? std::span(tour_->results()) : std::span<const screen::TourResult>();
+}
+
+SimTime ScreenWalk::on_turn(SimTime now) {
+    host::LiveScreen& live = session_.live();
+    if (!heard_ && live.lines_heard() != 0) {
+        heard_ = now;
+    }
+    if (!heard_ && now >= session_.first_word_due()) {
+        session_.fail(ExitCode::timed_out, session_.silence_sentence());
+        return printer::never;
+    }
+    if (!started_) {
+        const SimTime begin = heard_ ? *heard_ + after_first_word : live.line_start() + first_word;
+        if (now < begin) {
+            return std::min(begin, session_.first_word_due());
+        }
+        started_ = true;
+        tour_ = make_tour(now);
+        if (tour_) {
+            live.lead(&*tour_);
+            return now;
+        }
+    }
+    for (; told_ < results().size(); ++told_) {
+        on_result(results()[told_]);
+    }
+    const SimTime limit = heard_ ? printer::never : session_.first_word_due();
+    if (tour_ && !tour_->done()) {
+        return limit;
+    }
+    return heard_ ? on_done(now) : limit;
+}
+
+void ScreenWalk::on_link(link::LinkState state, std::string_view why) {
+    if (state != link::LinkState::up) {
+        session_.fail(ExitCode::no_port, why);
+    }
+}
+
+}  // namespace fauxboard::tools

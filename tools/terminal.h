@@ -1,0 +1,52 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "emulator/link/event_loop.h"
+#include "emulator/screen/console.h"
+// After event_loop.h, which see.
+#include <asio/posix/stream_descriptor.hpp>
+#include <asio/signal_set.hpp>
+
+namespace fauxboard::tools {
+
+/// The terminal on stdin and stdout as cells, keys and clicks. One at a time. Whatever ends its life
+/// restores the terminal.
+class Terminal {
+  public:
+    struct Events {
+        std::function<void(const screen::Key&)> on_key;
+        std::function<void()> on_resize;
+        std::function<void()> on_hangup;  ///< nobody is there any more
+    };
+
+    /// Whether stdin and stdout are a terminal.
+    static bool here();
+
+    /// Takes the terminal over. Throws host::HostError when it knows no way to draw on it.
+    Terminal(asio::io_context& loop, Events events);
+    ~Terminal();
+    Terminal(const Terminal&) = delete;
+    Terminal& operator=(const Terminal&) = delete;
+
+    int columns() const;
+    int rows() const;
+    void draw(const screen::Layout& layout);
+
+  private:
+    struct Curses;  ///< its header's macros stay in terminal.cpp
+
+    void wait_for_keys();
+    void wait_for_resize();
+    void read_keys();
+
+    Events events_;
+    asio::signal_set resized_;
+    std::unique_ptr<Curses> curses_;
+    asio::posix::stream_descriptor keys_;
+};
+
+}  // namespace fauxboard::tools
