@@ -10,6 +10,7 @@
 
 #include "emulator/host/clock.h"
 #include "emulator/host/eeprom_file.h"
+#include "emulator/host/faulty_link.h"
 #include "emulator/host/folder_card.h"
 #include "emulator/host/host_error.h"
 #include "emulator/host/json_log.h"
@@ -74,7 +75,8 @@ class Run {
     std::optional<host::EepromFile> eeprom_;
     std::optional<host::Recorder> recorder_;
     std::unique_ptr<host::Clock> clock_;
-    std::unique_ptr<link::Link> link_;
+    std::unique_ptr<link::Link> wire_;  ///< the line as it is
+    std::optional<host::FaultyLink> link_;
     std::optional<board::Board> board_;
     std::optional<host::LiveBoard> live_;
     asio::signal_set signals_;
@@ -115,7 +117,11 @@ void Run::set_up() {
     options.seed = options_.seed;
     options.observer = &observers_;
     board_.emplace(profile_, services, options);
-    link_ = make_link();
+    wire_ = make_link();
+    link_.emplace(*wire_, *clock_, fault::Direction::to_board);
+    for (const std::string& spec : options_.faults) {
+        link_->add(fault::fault_from_text(spec));
+    }
     live_.emplace(*board_, *link_, *clock_, &observers_);
 }
 
@@ -159,6 +165,9 @@ void Run::say_summary() {
         printer::to_seconds(live_->now()), c.lines_received, c.lines_sent, c.bad_frames,
         board_->lines_too_long(), c.unknown_codes, c.unmatched, c.requests_lost, c.messages_lost, c.lines_cut,
         l.bytes_in, l.bytes_out, l.bytes_lost));
+    for (const fault::FaultStatus& status : link_->list()) {
+        err_.write(host::fault_sentence(status) + "\n");
+    }
 }
 
 void Run::operator()() {
@@ -192,6 +201,8 @@ ExitCode run(const RunOptions& options) {
     } catch (const behaviour::ProfileError& error) {
         return complain("run", ExitCode::bad_input, error.what());
     } catch (const host::HostError& error) {
+        return complain("run", ExitCode::bad_input, error.what());
+    } catch (const fault::FaultSpecError& error) {
         return complain("run", ExitCode::bad_input, error.what());
     } catch (const link::LinkError& error) {
         return complain("run", ExitCode::no_port, error.what());

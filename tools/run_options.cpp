@@ -89,6 +89,13 @@ void declare_run_options(CLI::App& command, RunOptions& options) {
         ->type_name("FILE");
     declare_time(command, options);
     declare_talk(command, options);
+    command
+        .add_option(
+            "--fault", options.faults,
+            "Make the line misbehave: drop:to_screen,every=5 (see `describe faults`); may be repeated")
+        ->type_name("SPEC")
+        ->expected(1)
+        ->take_all();
     command.add_flag_callback(
         "--no-reload", [&options] { options.reload = false; },
         "Do not take a changed profile into force while running");

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "emulator/host/line_log.h"
 #include "emulator/host/time_text.h"
@@ -20,9 +21,10 @@ struct RunOptions {
     unsigned baud = 0;     ///< bit/s; 0: what the profile says
     host::Speed speed;
     std::uint64_t seed = 1;
-    std::string sd;      ///< folder; empty: the card that the profile carries
-    std::string eeprom;  ///< file; empty: in memory
-    std::string record;  ///< file; empty: none
+    std::string sd;                   ///< folder; empty: the card that the profile carries
+    std::string eeprom;               ///< file; empty: in memory
+    std::string record;               ///< file; empty: none
+    std::vector<std::string> faults;  ///< as fault::fault_from_text() reads them
     printer::SimTime duration = printer::never;
     bool pacing = true;
     bool json = false;

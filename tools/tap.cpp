@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "emulator/host/clock.h"
+#include "emulator/host/faulty_link.h"
 #include "emulator/host/host_error.h"
 #include "emulator/host/json_log.h"
 #include "emulator/host/pcapng.h"
@@ -41,6 +42,7 @@ struct TapOptions {
     std::optional<TapSide> board;
     std::string record;
     std::string pcapng;
+    std::vector<std::string> faults;  ///< as fault::fault_from_text() reads them
     SimTime duration = printer::never;
     host::TapLog::Options log;
     bool verbose = false;
@@ -70,6 +72,8 @@ class TapRun final : public host::TapObserver {
 
   private:
     void set_up();
+    void add_faults();
+    bool screen_is_b() const { return options_.board == TapSide::a; }
     void arm();
     nlohmann::ordered_json ready_end(TapSide side) const;
     void say_ready();
@@ -94,6 +98,7 @@ class TapRun final : public host::TapObserver {
     std::unique_ptr<host::Alarm> alarm_;
     std::unique_ptr<link::Link> a_;
     std::unique_ptr<link::Link> b_;
+    std::optional<host::FaultyLink> faulty_;  ///< around the screen's end
     std::optional<host::TapTalk> talk_;
     std::optional<host::Tap> tap_;
     asio::signal_set signals_;
@@ -121,8 +126,21 @@ void TapRun::set_up() {
     }
     a_ = host::make_tap_link(loop_, ends_[0], options_.baud);
     b_ = host::make_tap_link(loop_, ends_[1], options_.baud);
+    add_faults();
     talk_.emplace(lines_, capture_ ? &*capture_ : nullptr, options_.board);
-    tap_.emplace(*a_, *b_, *clock_, *this);
+    tap_.emplace(faulty_ && !screen_is_b() ? *faulty_ : *a_, faulty_ && screen_is_b() ? *faulty_ : *b_,
+                 *clock_, *this);
+}
+
+/// The screen's end misbehaves: what is shown and recorded is what the board says and gets.
+void TapRun::add_faults() {
+    if (options_.faults.empty()) {
+        return;
+    }
+    faulty_.emplace(screen_is_b() ? *b_ : *a_, *clock_, fault::Direction::to_board);
+    for (const std::string& spec : options_.faults) {
+        faulty_->add(fault::fault_from_text(spec));
+    }
 }
 
 nlohmann::ordered_json TapRun::ready_end(TapSide side) const {
@@ -167,8 +185,7 @@ void TapRun::report() {
 }
 
 void TapRun::arm() {
-    alarm_->at(
-        std::min({talk_->due(), options_.duration, options_.verbose ? next_report_ : printer::never}));
+    alarm_->at(std::min({talk_->due(), options_.duration, options_.verbose ? next_report_ : printer::never}));
 }
 
 void TapRun::wake() {
@@ -201,6 +218,11 @@ void TapRun::operator()() {
     talk_->finish();
     err_.write(fmt::format("After {:.3f} s: {}; {}; {}.\n", printer::to_seconds(clock_->now()),
                            side_text(TapSide::a), side_text(TapSide::b), delay_text()));
+    if (faulty_) {
+        for (const fault::FaultStatus& status : faulty_->list()) {
+            err_.write(host::fault_sentence(status) + "\n");
+        }
+    }
 }
 
 ExitCode tap(const TapOptions& options) {
@@ -208,6 +230,8 @@ ExitCode tap(const TapOptions& options) {
         TapRun{options}();
         return ExitCode::ok;
     } catch (const host::HostError& error) {
+        return complain("tap", ExitCode::bad_input, error.what());
+    } catch (const fault::FaultSpecError& error) {
         return complain("tap", ExitCode::bad_input, error.what());
     } catch (const link::LinkError& error) {
         return complain("tap", ExitCode::no_port, error.what());
@@ -234,6 +258,14 @@ void declare(CLI::App& command, TapOptions& options) {
         ->check(CLI::IsMember({"A", "B"}));
     command.add_option("--record", options.record, "Write every line to a recording")->type_name("FILE");
     command.add_option("--pcapng", options.pcapng, "Write a capture for Wireshark")->type_name("FILE");
+    command
+        .add_option(
+            "--fault", options.faults,
+            "Make the line misbehave: drop:to_screen,every=5 (see `describe faults`); may be repeated. "
+            "Without --board, B is the board")
+        ->type_name("SPEC")
+        ->expected(1)
+        ->take_all();
     command.add_flag("--decode", options.log.words, "Say in words what each line means");
     command
         .add_option_function<std::string>(
