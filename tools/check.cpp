@@ -70,7 +70,8 @@ ExitCode check(const std::vector<std::string>& files, bool as_json) {
 }  // namespace
 
 void add_check(CLI::App& app, ExitCode& exit) {
-    CLI::App* command = app.add_subcommand("check", "Check profiles and screens: their meaning, then their form");
+    CLI::App* command =
+        app.add_subcommand("check", "Check profiles and screens: their meaning, then their form");
     const auto files = std::make_shared<std::vector<std::string>>();
     const auto as_json = std::make_shared<bool>(false);
     command->add_option("file", *files, "Files, or names of profiles")->required();

@@ -43,13 +43,12 @@ class Show final : public ScreenWalk {
                                   session().screen().profile().pages[page_].path);
             return nullptr;
         }
-        std::vector<std::string> paths;
-        for (const screen::Step& step : *route) {
-            paths.push_back(session().screen().profile().buttons[step.button].path);
+        if (route->empty()) {
+            return nullptr;
         }
-        return paths.empty()
-                   ? nullptr
-                   : std::make_unique<screen::Tour>(session().screen(), std::move(paths), session().slack());
+        // The tour finds the way to it by itself, and only what the page itself asks for is judged.
+        const std::string& last = session().screen().profile().buttons[route->back().button].path;
+        return std::make_unique<screen::Tour>(session().screen(), std::vector{last}, session().slack());
     }
 
     SimTime on_done(SimTime now) override {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int least_talk = 5;  ///< rows, its rule included
 constexpr std::string_view usual_status =
-    "Virtual screen, no real one.  Tab, arrows, Enter, letters or mouse; PgUp PgDn: talk; q: quit";
+    "Virtual screen, no real one.  Tab, arrows, Enter, letters or mouse.  q quits";
 
 int width_of(std::string_view text) {
     return static_cast<int>(columns(text));

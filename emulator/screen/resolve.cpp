@@ -206,8 +206,8 @@ ResolvedPage resolve_page(const ScreenProfile& profile, std::string_view path) {
     }
     if (found.size() > 1) {
         out.page.reset();
-        out.sentence = fmt::format("\"{}\" may be {}; write more of its path", printable(path),
-                                   fmt::join(found, ", "));
+        out.sentence =
+            fmt::format("\"{}\" may be {}; write more of its path", printable(path), fmt::join(found, ", "));
     } else if (found.empty()) {
         const std::string_view near = behaviour::nearest(path, paths);
         out.sentence = fmt::format("there is no page \"{}\"{}", printable(path.substr(0, 100)),
