@@ -26,7 +26,8 @@ namespace {
 using screen::Ink;
 using screen::Key;
 
-constexpr int escape_delay_ms = 25;  ///< so long an Esc alone is not known from the start of a key
+constexpr int escape_delay_ms = 25;    ///< so long an Esc alone is not known from the start of a key
+constexpr int redraw_key = 'L' - '@';  ///< Ctrl-L, for a terminal that somebody else has written on
 constexpr std::size_t inks = static_cast<std::size_t>(Ink::status) + 1;
 
 /// The frames are no ASCII. Where the user's words are not UTF-8, the terminal mostly is all the same.
@@ -59,7 +60,7 @@ std::optional<Key> plain_key(Key::Kind kind) {
 
 std::optional<Key> click() {
     MEVENT event{};
-    if (::getmouse(&event) != OK || (event.bstate & (BUTTON1_PRESSED | BUTTON1_CLICKED)) == 0) {
+    if (::getmouse(&event) != OK || (event.bstate & (BUTTON1_RELEASED | BUTTON1_CLICKED)) == 0) {
         return std::nullopt;
     }
     Key key;
@@ -124,7 +125,7 @@ struct Terminal::Curses {
         ::keypad(stdscr, TRUE);
         ::nodelay(stdscr, TRUE);
         ::mouseinterval(0);
-        ::mousemask(BUTTON1_PRESSED | BUTTON1_CLICKED, nullptr);
+        ::mousemask(BUTTON1_RELEASED | BUTTON1_CLICKED, nullptr);
         choose_inks();
     }
     ~Curses() {
@@ -210,6 +211,10 @@ void Terminal::read_keys() {
         return;
     }
     for (int code = ::getch(); code != ERR; code = ::getch()) {
+        if (code == redraw_key) {
+            ::clearok(curscr, TRUE);
+            events_.on_resize();
+        }
         if (const auto key = key_of(code)) {
             events_.on_key(*key);
         }
