@@ -1,6 +1,7 @@
 // Card, job, screen, network and the board itself.
 
 #include <array>
+#include <cmath>
 
 #include "emulator/behaviour/field_rows.h"
 
@@ -59,6 +60,23 @@ constexpr std::array table{
           [](const Printer& p) { return p.job.byte(); }),
     shown("job.bytes", integer, "bytes", "size of the file, 0 when idle",
           [](const Printer& p) { return p.job.bytes(); }),
+
+    shown("job.estimate", integer, "s", "how long the slicer thinks the print takes, 0 when it did not say",
+          [](const Printer& p) { return std::floor(p.job.estimate_s); }),
+    shown("job.message", text, "", "text of the last M117 in the file",
+          [](const Printer& p) { return std::string_view{p.job.message}; }),
+    shown("job.waits_for_user", boolean, "", "the file has come to an M0, M1 or M600 and waits",
+          [](const Printer& p) { return p.job.waits_for_user; }),
+    shown("job.lines", integer, "", "lines of the file read in this job, comments included",
+          [](const Printer& p) { return p.runner.counts().lines; }),
+    shown("job.moves", integer, "", "moves of the file carried out in this job (G0 to G3)",
+          [](const Printer& p) { return p.runner.counts().moves; }),
+    shown("job.unknown_codes", integer, "",
+          "lines of the file skipped in this job because their code is unknown",
+          [](const Printer& p) { return p.runner.counts().unknown_codes; }),
+    shown("job.executed_byte", integer, "bytes",
+          "where the line of the move under way begins in the file: what a power cut loses begins here",
+          [](const Printer& p) { return p.runner.executed_byte(); }),
 
     plain("screen.known", boolean, "", 0, 1, "the screen has told its firmware since power-on",
           FAUXBOARD_PLACE(screen.known)),
@@ -119,7 +137,7 @@ constexpr std::array table{
         [](auto& p) -> auto& { return driver(p).error_limit; }),
 
     stored("power_loss.saved_job", boolean, "", 0, 1, "a job cut off by a power loss is kept",
-          FAUXBOARD_PLACE(power_loss.saved_job)),
+           FAUXBOARD_PLACE(power_loss.saved_job)),
 
     shown("identity.device_name", text, "", "DN of L9",
           [](const Printer& p) { return std::string_view{p.config().identity.device_name}; }),

@@ -336,6 +336,11 @@ void load_machine(const Json& node, const std::string& pointer, Findings& findin
     if (const Json* part = reader.get("card")) {
         load_card(*part, reader.pointer("card"), findings, machine.card);
     }
+    if (const Json* part = reader.get("job")) {
+        ObjectReader job(*part, reader.pointer("job"), findings);
+        job.number("finished_s", machine.job.finished_s, 0, 86400);
+        job.finish();
+    }
     reader.boolean("udisk_port", machine.udisk_port);
     reader.integer("board_fan_percent", machine.board_fan_percent, 0, 100);
     reader.number("manual_level_start_mm", machine.manual_level_start_mm, 0, 500);

@@ -9,9 +9,11 @@
 #include <algorithm>
 #include <cerrno>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <system_error>
 #include <tuple>
+#include <utility>
 
 #include "emulator/host/host_error.h"
 
@@ -136,6 +138,35 @@ printer::Volume::Kind FolderCard::look(std::string_view path, std::uint64_t& byt
         return folder ? Kind::folder : Kind::missing;
     }
     return folder && usable_name(name) ? look_at(folder.get(), name, bytes) : Kind::missing;
+}
+
+UniqueFd FolderCard::open_file(std::string_view path) const {
+    const std::size_t slash = path.rfind('/');
+    const std::string name(slash == std::string_view::npos ? path : path.substr(slash + 1));
+    const UniqueFd folder =
+        open_folder(slash == std::string_view::npos ? std::string_view{} : path.substr(0, slash));
+    if (!folder || !usable_name(name)) {
+        return {};
+    }
+    // O_NONBLOCK: a pipe that took the file's place meanwhile must not keep us waiting.
+    UniqueFd file(
+        ::openat(folder.get(), name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
+    struct stat info {};
+    const bool regular = file && ::fstat(file.get(), &info) == 0 && S_ISREG(info.st_mode);
+    return regular ? std::move(file) : UniqueFd{};
+}
+
+std::optional<std::size_t> FolderCard::read(std::string_view path, std::uint64_t offset,
+                                            std::span<char> out) const {
+    const UniqueFd file = open_file(path);
+    if (!file || offset > static_cast<std::uint64_t>(std::numeric_limits<off_t>::max())) {
+        return std::nullopt;
+    }
+    ssize_t got = -1;
+    do {
+        got = ::pread(file.get(), out.data(), out.size(), static_cast<off_t>(offset));
+    } while (got < 0 && errno == EINTR);
+    return got < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(got));
 }
 
 }  // namespace fauxboard::host

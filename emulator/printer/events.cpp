@@ -23,8 +23,10 @@ constexpr std::array<EventInfo, event_count> table{{
     {EventId::filament_inserted, "filament.inserted", "filament was put into the detector"},
     {EventId::filament_removed, "filament.removed", "filament was taken out of the detector"},
     {EventId::filament_out, "filament.out", "the enabled detector ran empty while printing"},
-    {EventId::card_inserted, "card.inserted", "the SD card was put in"},
-    {EventId::card_removed, "card.removed", "the SD card was taken out, or was missing at power-on"},
+    {EventId::card_inserted, "card.inserted", "the SD card or the U-disk was put in"},
+    {EventId::card_removed, "card.removed", "the SD card or the U-disk was taken out"},
+    {EventId::card_missing, "card.missing", "after power-on the board found that there is no SD card"},
+    {EventId::card_failed, "card.failed", "the SD card or the U-disk can no longer be read"},
     {EventId::file_selected, "file.selected", "a file to print was selected"},
     {EventId::file_missing, "file.missing", "the file to select does not exist"},
     {EventId::file_unreadable, "file.unreadable", "the file to select cannot be opened"},
@@ -34,6 +36,13 @@ constexpr std::array<EventInfo, event_count> table{{
     {EventId::job_resumed, "job.resumed", "a paused job goes on"},
     {EventId::job_stopped, "job.stopped", "the job was stopped before its end"},
     {EventId::job_finished, "job.finished", "the job reached its end"},
+    {EventId::job_closed, "job.closed", "the finished job is no longer shown; the board is idle"},
+    {EventId::job_refused, "job.refused", "what was asked for cannot be done while a job is under way"},
+    {EventId::job_file_lost, "job.file_lost",
+     "the file being printed is gone or cannot be read; the job pauses and resuming tries again"},
+    {EventId::job_message, "job.message", "the file being printed has a message (M117): job.message"},
+    {EventId::job_waits_for_user, "job.waits_for_user",
+     "the file being printed waits for the user (M0, M1, M600); resuming goes on"},
 }};
 
 consteval bool ordered() {

@@ -30,6 +30,8 @@ enum class EventId : std::uint8_t {
     filament_out,
     card_inserted,
     card_removed,
+    card_missing,
+    card_failed,
     file_selected,
     file_missing,
     file_unreadable,
@@ -39,6 +41,11 @@ enum class EventId : std::uint8_t {
     job_resumed,
     job_stopped,
     job_finished,
+    job_closed,
+    job_refused,
+    job_file_lost,
+    job_message,
+    job_waits_for_user,
     count_  // not an event
 };
 

@@ -15,11 +15,14 @@ bool Job::start(SimTime now) {
     if (!selected() || active()) {
         return false;
     }
+    if (status_ == JobStatus::finished) {
+        byte_ = 0;  // once more, from the start
+    }
     status_ = JobStatus::printing;
     before_ = SimTime{0};
     since_ = now;
-    byte_ = 0;
     layer = 0;
+    message.clear();
     return true;
 }
 
@@ -46,6 +49,15 @@ bool Job::resume(SimTime now) {
     }
     since_ = now;
     status_ = JobStatus::printing;
+    waits_for_user = false;
+    return true;
+}
+
+bool Job::close() {
+    if (status_ != JobStatus::finished) {
+        return false;
+    }
+    *this = Job{};
     return true;
 }
 

@@ -10,15 +10,16 @@ namespace fauxboard::printer {
 /// Print status as L3 tells it (PS).
 enum class JobStatus : std::uint8_t { idle = 0, printing = 1, paused = 2, recovery = 3, finished = 4 };
 
-/// The print job: what is selected, how it stands. Executing the file's G-code is not its business: whoever
-/// does moves `byte` and `layer` on and calls finish().
+/// The print job: what is selected, how it stands. Executing the file's G-code is the business of JobRunner,
+/// which moves `byte` and `layer` on.
 class Job {
   public:
     void power_on() { *this = Job{}; }
 
     void select(int volume, std::string path, std::uint64_t bytes);
     bool selected() const { return !path_.empty(); }
-    /// False when nothing is selected or a job is already under way.
+    /// False when nothing is selected or a job is already under way. Begins where set_byte() said, else at
+    /// the file's start.
     bool start(SimTime now);
     bool begin_pause();
     void pause(SimTime now);
@@ -26,6 +27,8 @@ class Job {
     /// False when there is no job.
     bool stop();
     bool finish(SimTime now);
+    /// A finished job is no longer shown. False when there is none.
+    bool close();
 
     JobStatus status() const { return status_; }
     bool active() const { return status_ == JobStatus::printing || status_ == JobStatus::paused; }
@@ -35,6 +38,8 @@ class Job {
     const std::string& path() const { return path_; }
     std::uint64_t byte() const { return active() ? byte_ : 0; }
     std::uint64_t bytes() const { return active() ? bytes_ : 0; }
+    /// Where the job begins, or goes on: in the file selected, whatever its state.
+    std::uint64_t place() const { return byte_; }
     /// M26; beyond the end is the end.
     void set_byte(double byte);
     int progress_percent() const;
@@ -42,6 +47,9 @@ class Job {
     SimTime elapsed(SimTime now) const;
     int layer = 0;
     int layers = 0;
+    double estimate_s = 0;        ///< what the slicer thinks it takes; 0 when it did not say
+    std::string message;          ///< of the last M117
+    bool waits_for_user = false;  ///< M0, M1, M600
 
   private:
     JobStatus status_ = JobStatus::idle;

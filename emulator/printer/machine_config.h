@@ -82,12 +82,19 @@ struct CardConfig {
     std::vector<BuiltInEntry> entries;
 };
 
+struct JobConfig {
+    /// How long a finished job is shown (PS:4) before the board is idle again. No request of the screens says
+    /// that the page was left, and the A30's opens its file list only while idle.
+    double finished_s = 10;
+};
+
 struct MachineConfig {
     Identity identity;
     ThermalConfig thermal;
     MotionConfig motion;
     FilamentConfig filament;
     CardConfig card;
+    JobConfig job;
     bool udisk_port = false;
     int board_fan_percent = 50;
     double manual_level_start_mm = 8.0;

@@ -10,6 +10,8 @@ using Kind = ProcedureStep::Kind;
 constexpr std::size_t z_axis = 2;
 constexpr double far_mm = 1e5;  // beyond any machine; keeps arithmetic finite whatever the line says
 
+constexpr double far_e_mm = 1e9;
+
 double sane(double mm) {
     return std::isfinite(mm) ? std::clamp(mm, -far_mm, far_mm) : 0.0;
 }
@@ -30,23 +32,27 @@ double trapezoid_s(double distance, double feed, double acceleration) {
 Motion::Motion(const MotionConfig& config, const Settings& settings)
     : config_(config),
       settings_(settings),
+      planner_(settings),
       offset_(config.power_on_mm),
-      modal_feed_(config.default_feed_mm_s) {}
+      modal_feed_(config.default_feed_mm_s) {
+    planner_.set_blocks(config.planner_blocks);
+}
 
 void Motion::power_on() {
     for (std::size_t i = 0; i < offset_.size(); ++i) {
         offset_[i] += executed_[i];
     }
+    planner_.clear();
     head_ = count_ = 0;
     step_end_ = never;
     planned_ = accepted_ = executed_ = {};
     modal_feed_ = config_.default_feed_mm_s;
     shown_feed_ = 0;
     babystep_ = 0;
-    speed_percent_ = 100;
+    speed_percent_ = flow_percent_ = 100;
     lost_rounds_ = 0;
     homed_ = 0;
-    relative_ = motors_ = false;
+    relative_ = relative_e_ = motors_ = false;
 }
 
 void Motion::set_motors(bool on) {
@@ -58,6 +64,7 @@ void Motion::set_motors(bool on) {
 }
 
 void Motion::abort() {
+    planner_.clear();
     head_ = count_ = 0;
     step_end_ = never;
     planned_ = accepted_ = executed_;
@@ -72,10 +79,13 @@ void Motion::set_position(const AxisTargets& values) {
         if (i < offset_.size()) {
             offset_[i] += planned_[i] - mm;
         }
-        planned_[i] = mm;
-        if (!busy()) {
-            accepted_[i] = executed_[i] = mm;
+        if (count_ == 0) {
+            // Blocks that wait, and what was too short to be one, keep their way in the new coordinates.
+            planner_.shift(i, mm - planned_[i]);
+            executed_[i] = executed_[i] == planned_[i] ? mm : executed_[i] + (mm - planned_[i]);
+            accepted_[i] = mm;
         }
+        planned_[i] = mm;
     }
 }
 
@@ -99,7 +109,7 @@ MoveOutcome Motion::move(const MoveRequest& request, SimTime now, EventQueue& ev
             continue;
         }
         any = true;
-        const bool relative = request.force_relative || relative_;
+        const bool relative = request.force_relative || (i == 3 ? relative_e() : relative_);
         double target = sane(sane(*request.values[i]) + (relative ? planned_[i] : 0.0));
         if (request.limits && i < 3) {
             const double inside = std::clamp(target, 0.0, config_.volume_mm[i]);
@@ -181,7 +191,7 @@ void Motion::accept_ahead() {
 
 void Motion::begin(SimTime now, EventQueue& events) {
     // Starts the front step if none is under way; steps without duration are done on the spot.
-    while (count_ != 0 && step_end_ == never) {
+    while (count_ != 0 && step_end_ == never && planner_.empty()) {
         Step& step = at(0);
         const bool travels = step.what.kind == Kind::to || step.what.kind == Kind::by;
         if (travels && !step.accepted) {
@@ -200,7 +210,36 @@ void Motion::begin(SimTime now, EventQueue& events) {
     }
 }
 
+void Motion::stream(const AxisValues& target, double feed_mm_s, std::uint64_t byte) {
+    AxisValues inside = target;
+    for (std::size_t i = 0; i < config_.volume_mm.size(); ++i) {
+        inside[i] = std::clamp(sane(target[i]), 0.0, config_.volume_mm[i]);
+    }
+    // The extruder runs on and on: a spool is more than 300 m.
+    inside[3] = std::isfinite(target[3]) ? std::clamp(target[3], -far_e_mm, far_e_mm) : executed_[3];
+    motors_ = true;
+    planner_.add({executed_, inside, feed_mm_s, byte});
+    planned_ = accepted_ = inside;
+}
+
+void Motion::start_stream(SimTime now) {
+    if (!planner_.empty() && !planner_.running()) {
+        planner_.start(now);
+        shown_feed_ = planner_.feed_mm_s();
+    }
+}
+
 void Motion::advance(SimTime now, EventQueue& events) {
+    while (planner_.running() && planner_.end() <= now) {
+        const SimTime end = planner_.end();
+        executed_ = planner_.target();
+        planner_.finish();
+        if (planner_.empty()) {
+            begin(end, events);
+        } else if (end < now) {
+            start_stream(end);
+        }
+    }
     while (count_ != 0 && step_end_ <= now) {
         const SimTime end = step_end_;
         finish(events);

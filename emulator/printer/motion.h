@@ -6,6 +6,7 @@
 
 #include "emulator/printer/events.h"
 #include "emulator/printer/machine_config.h"
+#include "emulator/printer/planner.h"
 #include "emulator/printer/sim_time.h"
 #include "emulator/printer/state.h"
 
@@ -22,7 +23,8 @@ struct MoveRequest {
 enum class MoveOutcome : std::uint8_t { accepted, clamped, queue_full };
 
 /// Moves, homing and probing in closed form: every step knows its end when it starts, nothing ticks in
-/// between.
+/// between. Single moves and procedures wait in a queue and go from rest to rest; the moves of a job stream
+/// through the Planner, which looks ahead. The two never run at once: what was asked for first comes first.
 ///
 /// What a board of this family reports is the destination of the last move *accepted into the planner*, and
 /// the feed of the move being *executed*; so the position runs ahead of the feed by the planner's buffer.
@@ -35,8 +37,10 @@ class Motion {
 
     /// Carries out everything that ends at or before `now`.
     void advance(SimTime now, EventQueue& events);
-    /// When the step under way ends; `never` when idle.
-    SimTime next_event() const { return busy() ? step_end_ : never; }
+    /// When the step or block under way ends; `never` when idle.
+    SimTime next_event() const {
+        return planner_.running() ? planner_.end() : count_ != 0 ? step_end_ : never;
+    }
 
     MoveOutcome move(const MoveRequest& request, SimTime now, EventQueue& events);
     /// Queues a procedure. False when the queue has no room for it; then nothing is queued.
@@ -44,13 +48,30 @@ class Motion {
     /// Drops what is queued and stops the step under way where it stands.
     void abort();
 
+    /// Whether stream() may be called: the queue is empty and the planner has room.
+    bool can_stream() const { return count_ == 0 && !planner_.full(); }
+    /// A move of a job, absolute, kept inside the build volume. `byte` is where its line begins in the file.
+    void stream(const AxisValues& target, double feed_mm_s, std::uint64_t byte);
+    /// Starts the planner's next block, if none is under way: after stream(), and after advance() to a
+    /// block's end.
+    void start_stream(SimTime now);
+    /// Where in its file the move under way begins; `otherwise` when no move of a job is.
+    std::uint64_t streamed_byte(std::uint64_t otherwise) const {
+        return planner_.empty() ? otherwise : planner_.byte();
+    }
+
     void set_relative(bool relative) { relative_ = relative; }
     bool relative() const { return relative_; }
+    /// M82, M83: E alone; G91 makes it relative as well.
+    void set_relative_e(bool relative) { relative_e_ = relative; }
+    bool relative_e() const { return relative_ || relative_e_; }
     void set_position(const AxisTargets& values);  // G92
     void set_motors(bool on);
     bool motors() const { return motors_; }
     bool homed() const { return (homed_ & 7U) == 7U; }
-    bool busy() const { return count_ != 0; }
+    bool busy() const { return count_ != 0 || !planner_.empty(); }
+    /// End of everything asked for, mm.
+    const AxisValues& planned() const { return planned_; }
     /// Destination of the last accepted move, mm.
     double position(Axis axis) const { return accepted_[static_cast<std::size_t>(axis)]; }
     /// Feed of the move being executed, mm/s; keeps its last value when idle.
@@ -60,6 +81,8 @@ class Motion {
     void set_babystep(double mm) { babystep_ = mm; }
     int speed_percent() const { return speed_percent_; }
     void set_speed_percent(int percent) { speed_percent_ = percent; }
+    int flow_percent() const { return flow_percent_; }
+    void set_flow_percent(int percent) { flow_percent_ = percent; }
     /// Rounds that the status wheel is to leave out; asking takes them.
     int take_lost_rounds();
 
@@ -82,6 +105,7 @@ class Motion {
 
     const MotionConfig& config_;
     const Settings& settings_;
+    Planner planner_;
     std::array<Step, capacity> ring_{};
     std::size_t head_ = 0;
     std::size_t count_ = 0;
@@ -94,9 +118,11 @@ class Motion {
     double shown_feed_ = 0;
     double babystep_ = 0;
     int speed_percent_ = 100;
+    int flow_percent_ = 100;
     int lost_rounds_ = 0;
     std::uint8_t homed_ = 0;
     bool relative_ = false;
+    bool relative_e_ = false;
     bool motors_ = false;
 };
 

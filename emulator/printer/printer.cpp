@@ -16,6 +16,7 @@ Printer::Printer(std::shared_ptr<const MachineConfig> config, Services services,
     : thermal(config->thermal, seed),
       motion(config->motion, settings),
       feeder(config->filament),
+      runner(*this),
       config_(std::move(config)),
       services_(services),
       random_state_(seed ^ 0x9E3779B97F4A7C15ULL) {
@@ -44,6 +45,7 @@ void Printer::power_on(SimTime now) {
     filament.detector = Filament{}.detector;  // whether filament is in it is physical and stays
     storage.choose(0);
     job.power_on();
+    runner.power_on();
     screen = ScreenSide{};
     wifi = Wifi{};
     steppers = Steppers{};
@@ -63,8 +65,10 @@ void Printer::advance(SimTime now) {
         wait.advance(next, thermal, events);
         if (card_check_ <= next) {
             card_check_ = never;
-            events.raise(EventId::card_removed);
+            events.raise(EventId::card_missing);
         }
+        runner.advance(next);
+        motion.start_stream(next);
         if (was_moving) {
             emit_after_motion();
         }
@@ -74,7 +78,8 @@ void Printer::advance(SimTime now) {
 }
 
 SimTime Printer::next_event() const {
-    return std::min({motion.next_event(), feeder.next_event(), wait.next_event(), card_check_});
+    return std::min(
+        {motion.next_event(), feeder.next_event(), wait.next_event(), runner.next_event(), card_check_});
 }
 
 bool Printer::restless() const {
@@ -144,6 +149,9 @@ void Printer::set_filament(bool present) {
 }
 
 void Printer::insert_card(int disk) {
+    if (disk == 1 && !config_->udisk_port) {
+        return;
+    }
     Volume* volume = disk == 1 ? services_.udisk : services_.sd;
     if (volume == nullptr && disk == 0 && built_in_) {
         volume = &*built_in_;
@@ -163,10 +171,25 @@ void Printer::remove_card(int disk) {
     }
 }
 
+void Printer::fail_card(int disk) {
+    const bool was_there = storage.usable(disk);
+    if (storage.state(disk) != DiskState::removed) {
+        storage.set_state(disk, DiskState::failed);
+    }
+    if (was_there) {
+        events.raise(EventId::card_failed);
+    }
+}
+
 void Printer::select_file(std::string_view name) {
+    if (job.active()) {
+        events.raise(EventId::job_refused);
+        return;
+    }
     Storage::Found found = storage.find(name);
     switch (found.kind) {
         case Volume::Kind::file:
+            runner.stop();
             job.select(storage.chosen(), std::move(found.path), found.bytes);
             events.raise(EventId::file_selected);
             break;
@@ -182,17 +205,26 @@ void Printer::select_file(std::string_view name) {
 
 bool Printer::start_or_resume_job() {
     if (job.resume(now_)) {
+        runner.resume(now_);
         events.raise(EventId::job_resumed);
         return true;
     }
     if (job.start(now_)) {
+        runner.start(now_);
         events.raise(EventId::job_started);
         return true;
     }
     return false;
 }
 
-void Printer::pause_job() {
+void Printer::seek_job(double byte) {
+    job.set_byte(byte);
+    if (job.active()) {
+        runner.seek();
+    }
+}
+
+void Printer::pause_job(bool park) {
     if (job.pausing()) {
         events.raise(EventId::job_pausing);
         return;
@@ -200,15 +232,18 @@ void Printer::pause_job() {
     if (!job.begin_pause()) {
         return;
     }
-    if (!run("park") || !motion.busy()) {
-        emit_after_motion();
+    runner.pause();
+    if (park) {
+        run("park");
     }
+    emit_after_motion();
 }
 
 bool Printer::stop_job() {
     if (!job.stop()) {
         return false;
     }
+    runner.stop();
     motion.abort();
     thermal.set_target(HeaterId::nozzle, 0);
     thermal.set_target(HeaterId::bed, 0);
@@ -220,12 +255,23 @@ bool Printer::finish_job() {
     if (!job.finish(now_)) {
         return false;
     }
+    runner.finished(now_);
     events.raise(EventId::job_finished);
+    return true;
+}
+
+bool Printer::close_job() {
+    if (!job.close()) {
+        return false;
+    }
+    runner.stop();
+    events.raise(EventId::job_closed);
     return true;
 }
 
 void Printer::emergency_stop() {
     job.stop();
+    runner.stop();
     feeder.power_on();
     wait.cancel(events);
     thermal.set_target(HeaterId::nozzle, 0);

@@ -12,6 +12,7 @@
 #include "emulator/printer/feeder.h"
 #include "emulator/printer/heating_wait.h"
 #include "emulator/printer/job.h"
+#include "emulator/printer/job_runner.h"
 #include "emulator/printer/machine_config.h"
 #include "emulator/printer/mixer.h"
 #include "emulator/printer/motion.h"
@@ -77,11 +78,18 @@ class Printer {
     void set_filament(bool present);
     void insert_card(int disk);
     void remove_card(int disk);
+    /// The disk stays where it is and can no longer be read; insert_card() puts a good one in.
+    void fail_card(int disk);
     void select_file(std::string_view name);
     bool start_or_resume_job();
-    void pause_job();
+    /// Finishes the moves that are planned, then parks the head if it is to.
+    void pause_job(bool park = true);
+    /// M26: where the file goes on; the place of a job that is under way changes at once.
+    void seek_job(double byte);
     bool stop_job();
     bool finish_job();
+    /// A finished job is no longer shown. False when there is none.
+    bool close_job();
     /// M112: job, heaters and motors off at once.
     void emergency_stop();
     /// Filament state as L3 tells it: 255 detector off, else 1 with and 0 without filament.
@@ -104,6 +112,7 @@ class Printer {
     Filament filament;
     Storage storage;
     Job job;
+    JobRunner runner;
     ScreenSide screen;
     Wifi wifi;
     Steppers steppers;

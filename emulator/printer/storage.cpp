@@ -185,4 +185,16 @@ Volume::Kind BuiltInVolume::look(std::string_view path, std::uint64_t& bytes) co
     return entry->folder ? Kind::folder : Kind::file;
 }
 
+std::optional<std::size_t> BuiltInVolume::read(std::string_view path, std::uint64_t offset,
+                                               std::span<char> out) const {
+    const BuiltInEntry* entry = find(path);
+    if (entry == nullptr || entry->folder) {
+        return std::nullopt;
+    }
+    if (offset >= entry->content.size()) {
+        return 0;
+    }
+    return entry->content.copy(out.data(), out.size(), static_cast<std::size_t>(offset));
+}
+
 }  // namespace fauxboard::printer

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,6 +30,10 @@ class Volume {
     virtual bool list(std::string_view folder, std::vector<CardEntry>& out) const = 0;
     /// What stands at `path`, and its size if it is a file.
     virtual Kind look(std::string_view path, std::uint64_t& bytes) const = 0;
+    /// Reads the file's bytes from `offset` on, as many as `out` holds or there are; 0 at the end. Nothing
+    /// when there is no such file, or it cannot be read.
+    virtual std::optional<std::size_t> read(std::string_view path, std::uint64_t offset,
+                                            std::span<char> out) const = 0;
     /// Whether nothing on it ever changes, so that a listing may be kept.
     virtual bool fixed() const { return false; }
 };
@@ -37,6 +44,8 @@ class BuiltInVolume final : public Volume {
     explicit BuiltInVolume(const std::vector<BuiltInEntry>& root) : root_(root) {}
     bool list(std::string_view folder, std::vector<CardEntry>& out) const override;
     Kind look(std::string_view path, std::uint64_t& bytes) const override;
+    std::optional<std::size_t> read(std::string_view path, std::uint64_t offset,
+                                    std::span<char> out) const override;
     bool fixed() const override { return true; }
 
   private:
@@ -74,6 +83,9 @@ class Storage {
     /// What the screen shows of the folder: the way back first unless at the root, at most `limit` entries in
     /// all.
     void listing(std::vector<CardEntry>& out, unsigned limit) const;
+
+    /// The disk in the slot, if it is usable.
+    const Volume* volume(int disk) const { return usable(disk) ? volumes_[index(disk)] : nullptr; }
 
     /// The disk that listing() would show; nullptr when there is none to show, or when it may change.
     const Volume* fixed_volume() const {

@@ -33,6 +33,38 @@ const std::vector<ActionRow>& device_action_rows() {
              CHECK(b.number("card.code") == 1);
              CHECK(b.raised(EventId::card_removed));
          }},
+        {"card.fail",
+         [](Bench& b) {
+             b.run(R"("card.fail")");
+             CHECK(b.number("card.code") == 2);
+             CHECK(b.raised(EventId::card_failed));
+             b.run(R"("card.insert")");
+             CHECK(b.number("card.code") == 0);
+         }},
+        {"udisk.insert",
+         [](Bench& b) {
+             b.run(R"("udisk.insert")");  // this board has no port for one
+             CHECK_FALSE(b.machine.storage.usable(1));
+             CHECK_FALSE(b.raised(EventId::card_inserted));
+         }},
+        {"udisk.remove",
+         [](Bench& b) {
+             const std::vector<printer::BuiltInEntry> files;
+             printer::BuiltInVolume disk(files);
+             b.machine.storage.attach(1, &disk);
+             b.run(R"("udisk.remove")");
+             CHECK_FALSE(b.machine.storage.usable(1));
+             CHECK(b.raised(EventId::card_removed));
+         }},
+        {"udisk.fail",
+         [](Bench& b) {
+             const std::vector<printer::BuiltInEntry> files;
+             printer::BuiltInVolume disk(files);
+             b.machine.storage.attach(1, &disk);
+             b.run(R"("udisk.fail")");
+             CHECK(b.machine.storage.state(1) == printer::DiskState::failed);
+             CHECK(b.raised(EventId::card_failed));
+         }},
         {"card.mount",
          [](Bench& b) {
              b.run(R"(["card.release", "card.mount"])");
@@ -112,6 +144,15 @@ const std::vector<ActionRow>& device_action_rows() {
              b.run(R"("job.finish")");
              CHECK(b.raised(EventId::job_finished));
              CHECK(b.number("job.progress") == 100);
+         }},
+        {"job.close",
+         [](Bench& b) {
+             b.print();
+             b.run(R"("job.close")");
+             CHECK(b.number("job.status") == 1);  // only a finished one
+             b.run(R"(["job.finish", "job.close"])");
+             CHECK(b.raised(EventId::job_closed));
+             CHECK(b.number("job.status") == 0);
          }},
         {"job.seek",
          [](Bench& b) {

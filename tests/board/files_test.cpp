@@ -35,6 +35,9 @@ struct FakeCard final : printer::Volume {
         }
         return Kind::missing;
     }
+    std::optional<std::size_t> read(std::string_view, std::uint64_t, std::span<char>) const override {
+        return std::nullopt;
+    }
 };
 
 struct WithCard {
@@ -182,7 +185,9 @@ TEST_CASE("card: taken out it is told, SD is 1 and there are no files; put in ag
     const double out = driver.now();
     driver.world("card out");
     driver.run_for(0.2);
-    CHECK(join(driver.bodies(out)) == "L18 P26 S1\n");
+    REQUIRE(driver.bodies(out).size() == 2);
+    CHECK(driver.bodies(out)[0] == "L18 P26 S1");
+    CHECK(driver.bodies(out)[1].find(" SD:1 ") != std::string::npos);
     CHECK(driver.ask("M105", 0.15)[0].find(" SD:1 ") != std::string::npos);
     CHECK(join(driver.ask("M20 LCD", 0.15)) == "L7 begin file list:0\nL7 end file list:0\n");
     driver.run_to_quiet();
@@ -191,7 +196,10 @@ TEST_CASE("card: taken out it is told, SD is 1 and there are no files; put in ag
     driver.world("card in");
     const double in = driver.now();
     driver.run_for(0.3);
-    CHECK(driver.bodies(in).empty());
+    REQUIRE(driver.bodies(in).size() == 5);
+    CHECK(driver.bodies(in)[0].find(" SD:0 ") != std::string::npos);
+    CHECK(driver.bodies(in)[1] == "L7 begin file list:0");
+    driver.run_to_quiet();
     CHECK(driver.ask("M105", 0.15)[0].find(" SD:0 ") != std::string::npos);
     driver.run_to_quiet();
     CHECK(driver.ask("M20 LCD", 0.15).size() == 4);

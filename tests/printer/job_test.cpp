@@ -70,7 +70,7 @@ TEST_CASE("job: progress follows the byte, finished is 100, idle is 0") {
     CHECK(job.progress_percent() == 0);
     CHECK(job.byte() == 0);
     job.start(at(0));
-    CHECK(job.byte() == 0);
+    CHECK(job.byte() == 500);  // M26 before M24: there it begins
     CHECK(job.bytes() == 1000);
     job.set_byte(509.9);
     CHECK(job.byte() == 509);

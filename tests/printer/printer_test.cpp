@@ -159,7 +159,7 @@ TEST_CASE("printer: a missing card is found out some time after power-on, once")
     machine.advance(from_seconds(0.9));
     CHECK(machine.events.empty());
     machine.advance(from_seconds(60));
-    CHECK(machine.events.take() == EventId::card_removed);
+    CHECK(machine.events.take() == EventId::card_missing);
     CHECK(machine.events.empty());
     machine.insert_card(0);  // there is no card to put in
     CHECK(machine.disk_code() == 1);

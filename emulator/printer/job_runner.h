@@ -1,0 +1,87 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "emulator/printer/arc.h"
+#include "emulator/printer/gcode_line.h"
+#include "emulator/printer/gcode_reader.h"
+#include "emulator/printer/machine_config.h"
+#include "emulator/printer/sim_time.h"
+#include "emulator/printer/slicer_comments.h"
+
+namespace fauxboard::printer {
+
+class Printer;
+
+/// What a job's file was found to hold, since the start of the job.
+struct JobCounts {
+    std::uint64_t lines = 0;          ///< read, comments included
+    std::uint64_t moves = 0;          ///< G0 to G3 carried out
+    std::uint64_t unknown_codes = 0;  ///< skipped
+};
+
+/// Executes the file of a job: reads its lines as the planner has room, carries out their codes on the
+/// machine, and keeps the Job's place, layers and end.
+///
+/// It runs in virtual time and does nothing between events: it goes on when a block of the planner ends, a
+/// procedure or a wait is over. A line costs no time, but after each piece of 4 KiB without a rest it waits
+/// 10 ms (400 KB/s, what such boards read from a card), so that no file can hold the board up.
+class JobRunner {
+  public:
+    explicit JobRunner(Printer& printer) : printer_(printer) {}
+
+    void power_on();
+    /// The job starts, at its place().
+    void start(SimTime now);
+    /// The job pauses: remembers where the head is to be when it goes on. To be called before it is moved.
+    void pause();
+    /// It goes on: the head goes back, and the file is opened anew.
+    void resume(SimTime now);
+    /// The place in the file was changed (M26).
+    void seek();
+    /// The job is over, one way or other.
+    void stop();
+    /// The job is at its end: it is shown for a while.
+    void finished(SimTime now);
+
+    void advance(SimTime now);
+    SimTime next_event() const;
+
+    const JobCounts& counts() const { return counts_; }
+    /// The byte in the file at which the move under way begins: what a power cut loses begins here.
+    std::uint64_t executed_byte() const;
+
+  private:
+    friend struct JobCodes;  // what each code does
+
+    bool reading() const;
+    bool piece();
+    bool fetch();
+    void take_comment();
+    void execute();
+    void read_tail();
+    void scout(std::uint64_t bytes);
+    void lose_file();
+
+    Printer& printer_;
+    GcodeReader reader_;
+    GcodeLine line_;
+    SlicerNotes notes_;
+    GcodeReader scout_;  ///< runs ahead to count layers, where no comment tells their number
+    SlicerNotes scout_notes_;
+    ArcSegments arc_;
+    JobCounts counts_;
+    std::uint64_t line_byte_ = 0;  ///< where line_ begins
+    bool held_ = false;            ///< line_ is still to be carried out, once nothing moves
+    bool ended_ = false;           ///< the file is at its end; the moves are not
+    SimTime now_{0};
+    SimTime wake_{0};        ///< not to go on before
+    SimTime close_ = never;  ///< when the finished job is no longer shown
+    double unit_ = 1;        ///< mm: G20, G21
+    double feed_mm_s_ = 25;
+    AxisValues paused_at_{};
+    std::array<double, 3> weights_{};  ///< M163, until M164
+};
+
+}  // namespace fauxboard::printer

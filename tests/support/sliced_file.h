@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+
+#include "emulator/printer/storage.h"
+
+namespace fauxboard::testing {
+
+/// How a made-up sliced file is to be.
+struct SlicedFile {
+    enum class Slicer : std::uint8_t { cura, prusa, simplify3d, ideamaker };
+    /// What its layers are made of.
+    enum class Shape : std::uint8_t {
+        infill,  ///< long straight lines to and fro
+        curves,  ///< a wavy outline of segments of half a millimetre
+        towers,  ///< many small circles, with retraction and a hop between them
+    };
+    Slicer slicer = Slicer::cura;
+    Shape shape = Shape::infill;
+    int moves = 60'000;  ///< G0 and G1 within the layers, about
+    int layers = 200;
+    std::uint64_t seed = 1;
+    bool heating = false;  ///< M190 and M109 before, M104 S0 and M140 S0 after
+    bool homing = false;   ///< G28 before
+};
+
+/// The file's text: the same for the same wishes.
+std::string make_sliced_file(const SlicedFile& wishes);
+
+/// A disk whose files are in memory, or made while they are read.
+class MemoryDisk final : public printer::Volume {
+  public:
+    /// Fills `out` with the bytes from `offset` on.
+    using Maker = std::function<void(std::uint64_t offset, std::span<char> out)>;
+
+    void put(const std::string& path, std::string content) { files_[path] = std::move(content); }
+    void put(const std::string& path, std::uint64_t bytes, Maker maker) {
+        made_[path] = {bytes, std::move(maker)};
+    }
+    void remove(const std::string& path) { files_.erase(path), made_.erase(path); }
+    void set_failing(bool failing) { failing_ = failing; }
+    mutable std::uint64_t bytes_read = 0;
+
+    bool list(std::string_view folder, std::vector<printer::CardEntry>& out) const override;
+    Kind look(std::string_view path, std::uint64_t& bytes) const override;
+    std::optional<std::size_t> read(std::string_view path, std::uint64_t offset,
+                                    std::span<char> out) const override;
+
+  private:
+    struct Made {
+        std::uint64_t bytes = 0;
+        Maker maker;
+    };
+    std::map<std::string, std::string, std::less<>> files_;
+    std::map<std::string, Made, std::less<>> made_;
+    bool failing_ = false;
+};
+
+}  // namespace fauxboard::testing
