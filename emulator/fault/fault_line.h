@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -19,11 +20,18 @@ using FaultId = std::uint64_t;
 
 /// A fault and what it has done.
 struct FaultStatus {
+    /// In one direction.
+    struct Counts {
+        std::uint64_t seen = 0;
+        std::uint64_t acted = 0;
+        bool operator==(const Counts&) const = default;
+    };
     FaultId id = 0;
     FaultSpec spec;
-    std::uint64_t seen = 0;   ///< lines that concerned it
-    std::uint64_t acted = 0;  ///< times it acted
-    bool over = false;        ///< it will not act any more
+    std::uint64_t seen = 0;      ///< lines that concerned it, in all its directions
+    std::uint64_t acted = 0;     ///< times it acted, in all its directions
+    bool over = false;           ///< it will not act any more
+    std::array<Counts, 2> by{};  ///< Direction::to_screen, Direction::to_board
 };
 Json status_to_json(const FaultStatus& status);
 

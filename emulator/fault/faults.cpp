@@ -5,8 +5,18 @@
 namespace fauxboard::fault {
 namespace {
 
+/// A disconnection that no line brings is one event, which takes the link from both directions wherever it
+/// is.
+bool comes_to_both_at_once(const FaultSpec& spec) {
+    return spec.kind->interrupt != nullptr && spec.kind->interrupt(spec.values).link_down &&
+           !spec.trigger.by_line();
+}
+
 bool wants(const FaultSpec& spec, Direction direction) {
-    return spec.direction == direction || spec.direction == Direction::both;
+    if (spec.direction == Direction::both) {
+        return direction == Direction::to_screen || !comes_to_both_at_once(spec);
+    }
+    return spec.direction == direction;
 }
 
 bool full(const FaultLine& line, FaultId id) {
@@ -68,6 +78,7 @@ std::vector<FaultStatus> Faults::list(SimTime now) const {
         same->seen += status.seen;
         same->acted += status.acted;
         same->over = same->over && status.over;
+        same->by[1] = status.by[1];
     }
     std::sort(all.begin(), all.end(), [](const FaultStatus& a, const FaultStatus& b) { return a.id < b.id; });
     return all;

@@ -23,7 +23,8 @@ class Faults {
     /// Removes all; what was held comes out, and a link that was down is up again.
     void clear(SimTime now);
     bool empty() const { return to_screen_.size() + to_board_.size() == 0; }
-    /// By id; for faults of both directions the counters are sums, and over means in both.
+    /// By id; for faults of both directions seen and acted are sums, and over means in both. A disconnection
+    /// by time alone acts once, for both directions.
     std::vector<FaultStatus> list(SimTime now) const;
 
     FaultLine& to_screen() { return to_screen_; }

@@ -14,6 +14,16 @@ using link::LinkState;
 
 constexpr SimTime retry_period{500'000};
 
+/// "acted once", "acted 5 times on 10 lines".
+std::string deeds(const fault::FaultStatus::Counts& counts) {
+    const std::string lines = fmt::format("{} line{}", counts.seen, counts.seen == 1 ? "" : "s");
+    if (counts.acted == 0) {
+        return counts.seen == 0 ? "never acted" : "acted on none of " + lines;
+    }
+    const std::string times = counts.acted == 1 ? "acted once" : fmt::format("acted {} times", counts.acted);
+    return counts.seen == 0 ? times : times + " on " + lines;
+}
+
 }  // namespace
 
 FaultyLink::FaultyLink(link::Link& inner, Clock& clock, fault::Direction reads)
@@ -228,12 +238,15 @@ void FaultyLink::deliver() {
 
 std::string fault_sentence(const fault::FaultStatus& status) {
     const std::string name = fmt::format("Fault {}, {}, ", status.id, fault::fault_to_text(status.spec));
-    const char* const times = status.acted == 1 ? "once" : "times";
-    const std::string acted = status.acted == 1 ? times : fmt::format("{} {}", status.acted, times);
-    if (status.seen == 0) {
-        return fmt::format("{}acted {}.", name, acted);
+    const auto& [to_screen, to_board] = status.by;
+    const bool one_event = status.seen == 0 && status.acted < 2;
+    if (status.spec.direction != fault::Direction::both || one_event) {
+        return name + deeds({status.seen, status.acted}) + ".";
     }
-    return fmt::format("{}acted {} on {} line{}.", name, acted, status.seen, status.seen == 1 ? "" : "s");
+    if (to_screen == to_board) {
+        return name + deeds(to_screen) + " in each direction.";
+    }
+    return fmt::format("{}{} to the screen, {} to the board.", name, deeds(to_screen), deeds(to_board));
 }
 
 }  // namespace fauxboard::host

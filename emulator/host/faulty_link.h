@@ -86,7 +86,8 @@ class FaultyLink final : public link::Link, private link::LinkListener {
     std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);  ///< a listener may destroy this
 };
 
-/// For a person: "Fault 1, drop:to_screen,every=2, acted 5 times on 10 lines."
+/// For a person: "Fault 1, drop:to_screen,every=2, acted 5 times on 10 lines."; for both directions "Fault 2,
+/// drop:every=2, acted 5 times on 10 lines to the screen, once on 2 lines to the board."
 std::string fault_sentence(const fault::FaultStatus& status);
 
 }  // namespace fauxboard::host

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "emulator/board/board.h"
+#include "emulator/fault/kind.h"
 #include "emulator/host/profile_files.h"
 #include "protocol/framing.h"
 #include "tests/fault/helpers.h"
@@ -96,6 +97,7 @@ TEST_CASE("board: every kind of fault, both ways, and after it is cleared the bo
                                  "wrong_checksum:every=2",
                                  "silence:probability=0.3,for=700ms",
                                  "disconnect:probability=0.3,for=700ms"};
+    CHECK(std::size(specs) == kinds().size());
     for (const std::string& spec : specs) {
         CAPTURE(spec);
         Bench clean;

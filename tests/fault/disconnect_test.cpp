@@ -20,6 +20,23 @@ TEST_CASE("disconnect: the owner is told when the link goes and comes back") {
     CHECK(faults.connected(ms(12'000)));
 }
 
+TEST_CASE("disconnect: of both directions by time alone it is one event, and a full one when moved to one") {
+    Faults faults;
+    const FaultId id = faults.add(SimTime{0}, fault_from_text("disconnect:at=1s"));
+    faults.advance(ms(1000));
+    for (FaultLine* line : {&faults.to_screen(), &faults.to_board()}) {
+        line->push(ms(1500), "lost\n");
+        CHECK(line->output().empty());
+        CHECK(line->bytes_lost() == 5);
+    }
+    CHECK(faults.list(ms(1500)).at(0).acted == 1);
+    CHECK_FALSE(faults.list(ms(1500)).at(0).over);
+    CHECK(faults.list(ms(3000)).at(0).over);
+    CHECK(faults.change(ms(3000), id, fault_from_text("disconnect:to_board")));
+    CHECK_FALSE(faults.connected(ms(3000)));
+    CHECK(faults.list(ms(3000)).at(0).acted == 1);
+}
+
 TEST_CASE("disconnect: a line of either direction takes the link away from both") {
     for (const bool screen : {true, false}) {
         Faults faults;

@@ -29,6 +29,8 @@ TEST_CASE("a fault of both directions has one id, and its counters are added up"
     CHECK(list[1].id == 2);
     CHECK(list[1].seen == 4 - 1);  // the third line to the screen came after its end
     CHECK(list[1].acted == 3);
+    CHECK(list[1].by[0] == FaultStatus::Counts{2, 2});
+    CHECK(list[1].by[1] == FaultStatus::Counts{1, 1});
     CHECK_FALSE(list[1].over);
     faults.to_board().push(SimTime{0}, "a\n");
     CHECK(faults.list(SimTime{0})[1].over);

@@ -292,5 +292,23 @@ TEST_CASE("what a fault did is said in a sentence") {
     CHECK(fault_sentence(b.line->list()[1]) == "Fault 2, silence:to_screen, acted once.");
 }
 
+TEST_CASE("what a fault of both directions did is said for each, and a disconnection counts once") {
+    Bench b;
+    b.add("disconnect:at=0s,for=1s");
+    b.add("silence:at=0s");
+    b.add("drop:every=2,from=2s");
+    b.add("cut:every=2,from=2s");
+    b.open();
+    CHECK(fault_sentence(b.line->list()[3]) == "Fault 4, cut:every=2,from=2s, never acted.");
+    b.clock.pass(2s);
+    b.say("one\n");
+    b.line->write("one\ntwo\nthree\n");
+    CHECK(fault_sentence(b.line->list()[0]) == "Fault 1, disconnect:at=0s,for=1s, acted once.");
+    CHECK(fault_sentence(b.line->list()[1]) == "Fault 2, silence:at=0s, acted once in each direction.");
+    CHECK(fault_sentence(b.line->list()[2]) ==
+          "Fault 3, drop:every=2,from=2s, acted once on 3 lines to the screen, acted on none of 1 line to "
+          "the board.");
+}
+
 }  // namespace
 }  // namespace fauxboard::host::test
