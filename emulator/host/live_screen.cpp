@@ -33,6 +33,8 @@ void LiveScreen::start() {
 }
 
 void LiveScreen::lead(screen::Tour* tour) {
+    screen_.advance(now());  // its time stands still while nothing happens; a tour's limits start there
+    send_output();
     tour_ = tour;
     alarm_->at(clock_.now());
 }

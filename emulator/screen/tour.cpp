@@ -62,6 +62,11 @@ bool Tour::passed() const {
 
 SimTime Tour::advance(SimTime now) {
     for (;;) {
+        if (done()) {  // the screen lives on
+            const SimTime next = screen_.advance(now);
+            collect();
+            return next;
+        }
         // Never past the moment at which the tour itself wants to do something.
         const SimTime screen_next = screen_.advance(std::min(now, std::max(due(), screen_.time())));
         collect();
