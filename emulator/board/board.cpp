@@ -222,30 +222,6 @@ void Board::run_events() {
     notice(Level::error, "the profile's events raise each other without end; the rest was dropped");
 }
 
-bool Board::world(SimTime now, std::string_view phrase) {
-    const behaviour::ActionInfo* info = behaviour::find_world_action(phrase);
-    if (info == nullptr || std::any_of(info->args.begin(), info->args.end(),
-                                       [](const behaviour::ArgInfo& a) { return a.required; })) {
-        return false;
-    }
-    behaviour::ActionCall call;
-    call.info = info;
-    call.args.resize(info->args.size());
-    act(now, call);
-    return true;
-}
-
-void Board::act(SimTime now, const behaviour::ActionCall& call) {
-    catch_up(now);
-    machine_.advance(time_);
-    ActionContext context{machine_, variables_, *this};
-    behaviour::run_action(call, scope(), profile_->variables, context);
-    if (context.reset) {
-        power_on(time_);
-    }
-    settle();
-}
-
 void Board::send(const Send& entry, const Scope& here) {
     if (!behaviour::all_hold(entry.when, here)) {
         return;

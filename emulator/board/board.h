@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -86,8 +87,17 @@ class Board final : private behaviour::NoticeSink {
     /// Does something to the machine: an action without required arguments, by name or by phrase ("filament
     /// in"). False when there is none of that name.
     bool world(SimTime now, std::string_view phrase);
-    /// Carries out one compiled action, as world() does.
-    void act(SimTime now, const behaviour::ActionCall& call);
+    /// Carries out one compiled action, as world() does. What the machine has against it, also told as a
+    /// notice; empty when it was done.
+    std::string act(SimTime now, const behaviour::ActionCall& call);
+    /// Sends one of the profile's frames, as a rule does; it has no request to take parameters from.
+    void send_frame(SimTime now, const behaviour::Send& entry);
+    /// Puts bytes on the wire to the screen, at once and as they are but for the line end, which is added
+    /// when there is none.
+    void send_raw(SimTime now, std::string_view bytes);
+    /// Brings the machine up to `now`, so that its values are those of that moment and not of the last thing
+    /// done. Changes nothing of what the board will say.
+    void refresh(SimTime now);
 
     /// Does what is due up to `now`, but stops as soon as there is output. Returns when it wants to be called
     /// next; that may be in the past if it stopped early.
@@ -109,6 +119,8 @@ class Board final : private behaviour::NoticeSink {
     const behaviour::Profile& profile() const { return *profile_; }
     printer::Printer& machine() { return machine_; }
     const printer::Printer& machine() const { return machine_; }
+    /// Of the profile's own variables, in its order.
+    std::span<const double> variables() const { return variables_; }
 
   private:
     void notice(Level level, std::string_view text) override;
