@@ -12,6 +12,7 @@ enum class ExitCode : int {
     bad_input = 3,  ///< a profile, recording or script to work with is missing or wrong
     no_port = 4,    ///< a port, socket or link name cannot be opened
     timed_out = 5,  ///< nothing came in the time allowed
+    gone = 6,       ///< the other end went away before it answered
     internal = 70,  ///< a bug: please report it
 };
 
@@ -22,6 +23,7 @@ void add_replay(CLI::App& app, ExitCode& exit);
 void add_screen(CLI::App& app, ExitCode& exit);
 void add_tap(CLI::App& app, ExitCode& exit);
 void add_decode(CLI::App& app, ExitCode& exit);
+void add_ctl(CLI::App& app, ExitCode& exit);
 void add_check(CLI::App& app, ExitCode& exit);
 void add_describe(CLI::App& app, ExitCode& exit);
 void add_ports(CLI::App& app, ExitCode& exit);

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "emulator/behaviour/actions.h"
-#include "emulator/behaviour/fields.h"
+#include "emulator/behaviour/reference.h"
+#include "emulator/control/ops.h"
 #include "emulator/printer/events.h"
 #include "protocol/catalogue.h"
 
@@ -16,56 +16,6 @@ void put_text(Json& out, const char* key, std::string_view text) {
     if (!text.empty()) {
         out[key] = text;
     }
-}
-
-Json fields_json() {
-    Json list = Json::array();
-    for (const behaviour::Field& field : behaviour::fields()) {
-        Json row{{"path", field.path}, {"type", behaviour::type_name(field.type)}};
-        put_text(row, "unit", field.unit);
-        row["settable"] = field.set != nullptr;
-        if (field.set != nullptr && field.type == behaviour::FieldType::text) {
-            row["max_bytes"] = static_cast<int>(field.max);
-        } else if (field.set != nullptr && field.type != behaviour::FieldType::boolean) {
-            row["min"] = field.min;
-            row["max"] = field.max;
-        }
-        row["stored"] = field.stored;
-        row["help"] = field.help;
-        list.push_back(std::move(row));
-    }
-    return list;
-}
-
-std::string_view type_name(behaviour::ArgType type) {
-    switch (type) {
-        case behaviour::ArgType::number:
-            return "number";
-        case behaviour::ArgType::boolean:
-            return "boolean";
-        case behaviour::ArgType::text:
-            return "text";
-    }
-    return "";
-}
-
-Json actions_json() {
-    Json list = Json::array();
-    for (const behaviour::ActionInfo& action : behaviour::actions()) {
-        Json row{{"name", action.name}};
-        put_text(row, "phrase", action.phrase);
-        row["help"] = action.help;
-        Json arguments = Json::array();
-        for (const behaviour::ArgInfo& arg : action.args) {
-            arguments.push_back({{"name", arg.name},
-                                 {"type", type_name(arg.type)},
-                                 {"required", arg.required},
-                                 {"help", arg.help}});
-        }
-        row["arguments"] = std::move(arguments);
-        list.push_back(std::move(row));
-    }
-    return list;
 }
 
 Json events_json() {
@@ -137,13 +87,15 @@ Json reference_json(std::span<const std::string_view> parts) {
     for (const std::string_view part : parts) {
         const std::string name(part);
         if (part == "fields") {
-            out[name] = fields_json();
+            out[name] = behaviour::describe_fields();
         } else if (part == "actions") {
-            out[name] = actions_json();
+            out[name] = behaviour::describe_actions();
         } else if (part == "events") {
             out[name] = events_json();
         } else if (part == "codes") {
             out[name] = codes_json();
+        } else if (part == "control") {
+            out[name] = control::describe_control();
         }
     }
     return out;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "tools/describe_control.h"
 #include "tools/describe_reference.h"
 
 namespace fauxboard::tools {
@@ -223,6 +224,8 @@ std::string reference_text(std::span<const std::string_view> parts) {
             events_text(rows, out);
         } else if (part == "codes") {
             codes_text(rows, out);
+        } else if (part == "control") {
+            text += control_text(rows);
         }
     }
     return text;
@@ -242,6 +245,7 @@ std::string reference_markdown() {
         "\n## Codes\n\nThe lines of the protocol. A number behind the type is its decimals on the wire.\n";
     codes_of(reference["codes"], "to_board", "From the screen", out);
     codes_of(reference["codes"], "to_screen", "To the screen", out);
+    text += control_markdown(reference["control"]);
     return text;
 }
 

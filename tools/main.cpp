@@ -41,6 +41,7 @@ Exit codes:
   3   a profile, recording, folder or file to work with is missing or wrong
   4   a port, socket or link name cannot be opened
   5   nothing came in the time allowed
+  6   the other end went away before it answered
   70  a bug in fauxboard: please report it)";
 
 /// A descriptor closed by our caller would be given to the first port that we open, and text meant for people
@@ -85,6 +86,7 @@ int run_app(int argc, char** argv) {
     add_screen(app, exit);
     add_tap(app, exit);
     add_decode(app, exit);
+    add_ctl(app, exit);
     add_check(app, exit);
     add_describe(app, exit);
     add_ports(app, exit);

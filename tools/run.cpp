@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "emulator/host/clock.h"
+#include "emulator/host/control_server.h"
 #include "emulator/host/eeprom_file.h"
 #include "emulator/host/faulty_link.h"
 #include "emulator/host/folder_card.h"
@@ -36,6 +37,20 @@ using printer::SimTime;
 /// What a person can still follow, per second. A real line has some twenty at most.
 constexpr double log_lines_per_second = 100;
 
+/// The faults of the line, as the control channel changes them.
+class LineFaults final : public control::FaultControl {
+  public:
+    explicit LineFaults(host::FaultyLink& line) : line_(line) {}
+    fault::FaultId add(const fault::FaultSpec& spec) override { return line_.add(spec); }
+    bool change(fault::FaultId id, const fault::FaultSpec& spec) override { return line_.change(id, spec); }
+    bool remove(fault::FaultId id) override { return line_.remove(id); }
+    void clear() override { line_.clear(); }
+    std::vector<fault::FaultStatus> list() override { return line_.list(); }
+
+  private:
+    host::FaultyLink& line_;
+};
+
 /// Everything that one run needs, in the order in which it must come and (backwards) go.
 class Run {
   public:
@@ -58,6 +73,7 @@ class Run {
     }
     void set_up();
     std::unique_ptr<link::Link> make_link();
+    void open_control();
     void say_ready();
     void say(board::Level level, std::string_view text);
     void reload();
@@ -79,6 +95,8 @@ class Run {
     std::optional<host::FaultyLink> link_;
     std::optional<board::Board> board_;
     std::optional<host::LiveBoard> live_;
+    std::optional<LineFaults> faults_;
+    std::optional<host::ControlServer> control_;
     asio::signal_set signals_;
     host::ProfileWatch watch_;
 };
@@ -125,11 +143,25 @@ void Run::set_up() {
     live_.emplace(*board_, *link_, *clock_, &observers_);
 }
 
+void Run::open_control() {
+    if (options_.control.empty()) {
+        return;
+    }
+    control_.emplace(host::ControlServer::Parts{
+        loop_, *board_, *live_, *clock_, *link_, &faults_.emplace(*link_), [this] { loop_.stop(); },
+        [this](std::string_view text) { say(board::Level::info, text); }});
+    observers_.add(*control_);
+    control_->open(options_.control);
+}
+
 void Run::say_ready() {
     nlohmann::ordered_json ready{
         {"profile", profile_->name}, {"link", link_->kind()}, {"path", link_->path()}};
     if (!options_.pty_name.empty()) {
         ready["name"] = options_.pty_name;
+    }
+    if (control_) {
+        ready["control"] = options_.control;
     }
     out_.write("ready " + ready.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) + "\n");
     if (options_.json) {
@@ -147,6 +179,9 @@ void Run::reload() {
         watch_.watch(profile->files);
         profile_ = profile;
         live_->reload(std::move(profile));
+        if (control_) {
+            control_->on_reload();
+        }
         say(board::Level::info, "the changed profile is in force");
     } catch (const behaviour::ProfileError& error) {
         say(board::Level::error, "the changed profile is wrong, the one before stays in force:");
@@ -177,6 +212,7 @@ void Run::operator()() {
             loop_.stop();
         }
     });
+    open_control();
     link_->open(*live_);
     say_ready();
     if (options_.reload) {
@@ -189,6 +225,9 @@ void Run::operator()() {
     }
     live_->start(options_.duration, [this] { loop_.stop(); });
     clock_->run();
+    if (control_) {
+        control_->close();
+    }
     link_->close();
     log_.finish(live_->now());
     say_summary();

@@ -66,6 +66,10 @@ void declare_time(CLI::App& command, RunOptions& options) {
 void declare_talk(CLI::App& command, RunOptions& options) {
     command.add_option("--record", options.record, "Write every line of the wire to a recording")
         ->type_name("FILE");
+    command
+        .add_option("--control", options.control,
+                    "Open a control channel, apart from the line: a Unix socket for `fauxboard ctl`")
+        ->type_name("PATH");
     command.add_flag("--json", options.json, "The log as JSON lines on stdout, instead of text on stderr");
     CLI::Option* verbose = command.add_flag_callback(
         "-v,--verbose", [&options] { options.detail = host::Detail::verbose; }, "Log all there is");

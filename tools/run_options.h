@@ -24,6 +24,7 @@ struct RunOptions {
     std::string sd;                   ///< folder; empty: the card that the profile carries
     std::string eeprom;               ///< file; empty: in memory
     std::string record;               ///< file; empty: none
+    std::string control;              ///< socket of the control channel; empty: none
     std::vector<std::string> faults;  ///< as fault::fault_from_text() reads them
     printer::SimTime duration = printer::never;
     bool pacing = true;

@@ -59,15 +59,41 @@ void LiveBoard::settle(SimTime now) {
         std::exchange(on_end_, {})();
         return;
     }
-    alarm_->at(std::min(due_, end_));
+    alarm_->at(std::min({due_, show_due_, end_}));
+}
+
+/// The follower sees the machine as it is now, not as it was when something last happened.
+void LiveBoard::show(SimTime now) {
+    if (follower_ && show_due_ <= now && due_ > now) {
+        board_.refresh(now);
+        catch_up(now);
+        show_due_ = follower_(now);
+    }
 }
 
 void LiveBoard::wake() {
     if (running_) {
         const SimTime at = now();
         catch_up(at);
+        show(at);
         settle(at);
     }
+}
+
+void LiveBoard::visit(const std::function<void(board::Board& board, SimTime now)>& use) {
+    if (!running_) {
+        use(board_, board_.time());
+        return;
+    }
+    const SimTime at = now();
+    catch_up(at);
+    use(board_, due_ > at ? at : board_.time());
+    send_output();
+    catch_up(at);
+    if (follower_) {
+        show_due_ = at;
+    }
+    settle(at);
 }
 
 void LiveBoard::on_bytes(std::string_view bytes) {

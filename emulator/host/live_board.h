@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <string_view>
+#include <utility>
 
 #include "emulator/board/board.h"
 #include "emulator/host/clock.h"
@@ -23,6 +24,13 @@ class LiveBoard final : public link::LinkListener {
     void start(SimTime duration, std::function<void()> on_end);
     /// Puts a changed profile in force.
     void reload(std::shared_ptr<const behaviour::Profile> profile);
+    /// Calls `use` with the board brought up to now, and sees to what comes of it: output, alarms. Not to be
+    /// called from inside a call of the board or of `use`.
+    void visit(const std::function<void(board::Board& board, SimTime now)>& use);
+    /// Somebody who watches the machine: called from the event loop when the time that it last returned has
+    /// come, and soon after each visit(), with the board and its machine brought up to that time. Set before
+    /// start().
+    void follow(std::function<SimTime(SimTime now)> follower) { follower_ = std::move(follower); }
     /// Virtual time, no later than the end.
     SimTime now() const;
 
@@ -33,6 +41,7 @@ class LiveBoard final : public link::LinkListener {
     void wake();
     void catch_up(SimTime now);
     void settle(SimTime now);
+    void show(SimTime now);
     void send_output();
 
     board::Board& board_;
@@ -41,8 +50,10 @@ class LiveBoard final : public link::LinkListener {
     std::unique_ptr<Alarm> alarm_;
     LiveObserver* observer_;
     std::function<void()> on_end_;
+    std::function<SimTime(SimTime)> follower_;
     SimTime end_{0};
-    SimTime due_{0};  ///< what the board's last advance() returned
+    SimTime due_{0};                    ///< what the board's last advance() returned
+    SimTime show_due_{printer::never};  ///< what the follower last returned
     bool running_ = false;
 };
 

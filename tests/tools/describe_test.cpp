@@ -32,6 +32,9 @@ TEST_CASE("describe: all rows are there, each with its words") {
     CHECK(reference["codes"].size() == protocol::catalogue().size());
     const std::string text = tools::reference_text(tools::reference_parts);
     for (const auto& [part, rows] : reference.items()) {
+        if (part == "control") {
+            continue;  // below
+        }
         for (const auto& row : rows) {
             const std::string name = row.begin().value();
             CAPTURE(name);
@@ -50,4 +53,20 @@ TEST_CASE("describe: only the parts asked for") {
     const std::string text = tools::reference_text({&part, 1});
     CHECK(text.starts_with("EVENTS"));
     CHECK(text.find("FIELDS") == std::string::npos);
+}
+
+TEST_CASE("describe: the control channel's ops, topics and errors are all there") {
+    const auto control = tools::reference_json(tools::reference_parts)["control"];
+    const std::string text = tools::reference_text(tools::reference_parts);
+    const std::string page = tools::reference_markdown();
+    for (const auto* table : {"ops", "topics", "errors"}) {
+        CHECK(control[table].size() > 3);
+        for (const auto& row : control[table]) {
+            const auto name = row.begin().value().get<std::string>();
+            CAPTURE(name);
+            CHECK(text.find("  " + name + " ") != std::string::npos);
+            CHECK(page.find("| `" + name + "` |") != std::string::npos);
+            CHECK_FALSE(row["help"].get<std::string>().empty());
+        }
+    }
 }

@@ -1,0 +1,111 @@
+#include "tools/ctl_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "emulator/behaviour/fields.h"
+
+namespace fauxboard::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string value_text(const Json& value) {
+    if (value.is_number_float()) {
+        return fmt::format("{:g}", std::round(value.get<double>() * 1000) / 1000);
+    }
+    return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+std::string unit_of(const std::string& path) {
+    const behaviour::Field* field = behaviour::find_field(path);
+    return field == nullptr || field->unit.empty() ? "" : " " + std::string(field->unit);
+}
+
+std::string fields_text(const Json& fields) {
+    std::size_t width = 0;
+    for (const auto& [path, value] : fields.items()) {
+        width = std::max(width, path.size());
+    }
+    std::string out;
+    for (const auto& [path, value] : fields.items()) {
+        out += fmt::format("{:<{}}  {}{}\n", path, width, value_text(value), unit_of(path));
+    }
+    return out;
+}
+
+std::string fault_text(const Json& fault) {
+    std::string out;
+    for (const auto& [key, value] : fault.items()) {
+        const std::string blank = out.empty() ? "" : " ";
+        out += value.is_object() ? blank + fault_text(value)
+                                 : fmt::format("{}{}={}", blank, key, value_text(value));
+    }
+    return out;
+}
+
+/// Members of an answer, whatever they are, one a line.
+std::string members_text(const Json& object, const std::string& prefix = "") {
+    std::string out;
+    for (const auto& [key, value] : object.items()) {
+        if (prefix.empty() && (key == "id" || key == "ok" || key == "notices")) {
+            continue;
+        }
+        if (prefix.empty() && key == "fields") {
+            out += fields_text(value);
+        } else if (value.is_object()) {
+            out += members_text(value, prefix + key + ".");
+        } else {
+            out += fmt::format("{}{}: {}\n", prefix, key, value_text(value));
+        }
+    }
+    return out;
+}
+
+}  // namespace
+
+std::string answer_text(const Json& answer) {
+    if (const auto faults = answer.find("faults"); faults != answer.end() && faults->is_array()) {
+        std::string out = faults->empty() ? "no faults\n" : "";
+        for (const Json& fault : *faults) {
+            out += fault_text(fault) + "\n";
+        }
+        return out;
+    }
+    if (const auto fields = answer.find("fields"); fields != answer.end()) {
+        return fields_text(*fields);
+    }
+    return members_text(answer);
+}
+
+std::string event_text(const Json& event) {
+    const std::string kind = event.value("event", "");
+    const std::string t = fmt::format("{:>10.3f}", event.value("t", 0.0));
+    if (kind == "traffic") {
+        const std::string from = event.value("from", "");
+        const std::string refused = event.contains("refused") ? " (" + event.value("refused", "") + ")" : "";
+        return fmt::format("{} {} {}{}\n", t,
+                           from == "board"  ? "<-"
+                           : from == "host" ? "=>"
+                                            : "->",
+                           event.value("line", ""), refused);
+    }
+    if (kind == "state") {
+        std::string out;
+        for (const auto& [path, value] : event.at("fields").items()) {
+            out += fmt::format("{} {} = {}{}\n", t, path, value_text(value), unit_of(path));
+        }
+        return out;
+    }
+    if (kind == "lost") {
+        return fmt::format("           ({} events were lost: this end read too slowly)\n",
+                           event.value("count", 0));
+    }
+    return fmt::format("{} {}\n", t,
+                       kind == "notice" ? event.value("level", "") + ": " + event.value("text", "")
+                                        : "link " + event.value("state", "") + ": " + event.value("why", ""));
+}
+
+}  // namespace fauxboard::tools
