@@ -4,6 +4,7 @@
 
 #include "emulator/behaviour/reference.h"
 #include "emulator/control/ops.h"
+#include "emulator/fault/kind.h"
 #include "emulator/printer/events.h"
 #include "protocol/catalogue.h"
 
@@ -94,6 +95,8 @@ Json reference_json(std::span<const std::string_view> parts) {
             out[name] = events_json();
         } else if (part == "codes") {
             out[name] = codes_json();
+        } else if (part == "faults") {
+            out[name] = fault::describe_kinds();
         } else if (part == "control") {
             out[name] = control::describe_control();
         }

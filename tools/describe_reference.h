@@ -13,10 +13,10 @@
 namespace fauxboard::tools {
 
 /// The parts of the reference, in its order.
-inline constexpr std::array<std::string_view, 5> reference_parts{"fields", "actions", "events", "codes",
-                                                                 "control"};
+inline constexpr std::array<std::string_view, 6> reference_parts{"fields", "actions", "events",
+                                                                 "codes",  "faults",  "control"};
 
-/// The parts asked for, each under its name: an array of rows; control an object of several.
+/// The parts asked for, each under its name: an array of rows; faults and control an object of several.
 nlohmann::ordered_json reference_json(std::span<const std::string_view> parts);
 
 /// For a terminal.

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "tools/describe_control.h"
+#include "tools/describe_faults.h"
 #include "tools/describe_reference.h"
 
 namespace fauxboard::tools {
@@ -224,6 +225,8 @@ std::string reference_text(std::span<const std::string_view> parts) {
             events_text(rows, out);
         } else if (part == "codes") {
             codes_text(rows, out);
+        } else if (part == "faults") {
+            text += faults_text(rows);
         } else if (part == "control") {
             text += control_text(rows);
         }
@@ -245,6 +248,7 @@ std::string reference_markdown() {
         "\n## Codes\n\nThe lines of the protocol. A number behind the type is its decimals on the wire.\n";
     codes_of(reference["codes"], "to_board", "From the screen", out);
     codes_of(reference["codes"], "to_screen", "To the screen", out);
+    text += faults_markdown(reference["faults"]);
     text += control_markdown(reference["control"]);
     return text;
 }

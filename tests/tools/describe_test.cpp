@@ -4,6 +4,7 @@
 
 #include "emulator/behaviour/actions.h"
 #include "emulator/behaviour/fields.h"
+#include "emulator/fault/kind.h"
 #include "emulator/printer/events.h"
 #include "protocol/catalogue.h"
 #include "tests/tools/helpers.h"
@@ -32,7 +33,7 @@ TEST_CASE("describe: all rows are there, each with its words") {
     CHECK(reference["codes"].size() == protocol::catalogue().size());
     const std::string text = tools::reference_text(tools::reference_parts);
     for (const auto& [part, rows] : reference.items()) {
-        if (part == "control") {
+        if (part == "control" || part == "faults") {
             continue;  // below
         }
         for (const auto& row : rows) {
@@ -53,6 +54,35 @@ TEST_CASE("describe: only the parts asked for") {
     const std::string text = tools::reference_text({&part, 1});
     CHECK(text.starts_with("EVENTS"));
     CHECK(text.find("FIELDS") == std::string::npos);
+}
+
+TEST_CASE("describe: every kind of fault and every attribute is there, for people and for programs") {
+    const std::string_view part = "faults";
+    const auto faults = tools::reference_json({&part, 1})["faults"];
+    CHECK(faults["kinds"].size() == fault::kinds().size());
+    CHECK(faults["common"].size() == fault::common_attributes().size());
+    const std::string text = tools::reference_text({&part, 1});
+    const std::string page = tools::reference_markdown();
+    CHECK(text.starts_with("FAULTS"));
+    const auto check_attribute = [&](const fault::Attribute& attribute) {
+        CAPTURE(attribute.name);
+        CHECK(text.find("\n      " + std::string(attribute.name) + " ") != std::string::npos);
+        CHECK(text.find(attribute.help) != std::string::npos);
+        CHECK(page.find("| `" + std::string(attribute.name) + "` |") != std::string::npos);
+    };
+    for (const fault::Kind* kind : fault::kinds()) {
+        CAPTURE(kind->name);
+        CHECK(text.find("\n  " + std::string(kind->name) + " ") != std::string::npos);
+        CHECK(text.find(kind->help) != std::string::npos);
+        CHECK(page.find("**`" + std::string(kind->name) + "`** " + std::string(kind->help)) !=
+              std::string::npos);
+        for (const fault::Attribute& attribute : kind->attributes) {
+            check_attribute(attribute);
+        }
+    }
+    for (const fault::CommonAttribute& attribute : fault::common_attributes()) {
+        check_attribute(attribute);
+    }
 }
 
 TEST_CASE("describe: the control channel's ops, topics and errors are all there") {
