@@ -39,8 +39,9 @@ std::size_t write_frame(std::span<char> out, std::string_view body, FrameStyle s
 /// Bytes that a frame of this style has before its body.
 std::size_t frame_head(FrameStyle style);
 
-/// As write_frame(), for a body that stands in `out` already, frame_head() bytes from its start.
-std::size_t dress_frame(std::span<char> out, std::size_t body_size, FrameStyle style);
+/// As write_frame(), for a body that stands in `out` already, frame_head() bytes from its start, and whose
+/// bytes XOR to `body_sum`.
+std::size_t dress_frame(std::span<char> out, std::size_t body_size, unsigned body_sum, FrameStyle style);
 
 /// What write_frame() writes, as a string, for tests and tools.
 std::string frame(std::string_view body, FrameStyle style = FrameStyle::framed);

@@ -4,14 +4,18 @@
 #include <cstring>
 
 #include "emulator/behaviour/number_text.h"
+#include "protocol/framing.h"
 
 namespace fauxboard::behaviour {
 namespace {
 
+/// See put_literal(): literals are copied by so many bytes, of which those that belong to it count.
+constexpr std::size_t copied_at_once = 16;
+
 /// Copies a text, making control characters visible instead of active.
-std::size_t copy_text(std::string_view text, std::span<char> out, bool lower) {
-    const std::size_t size = std::min(text.size(), out.size());
-    for (std::size_t i = 0; i < size; ++i) {
+Written copy_text(std::string_view text, std::span<char> out, bool lower) {
+    Written written{std::min(text.size(), out.size()), 0};
+    for (std::size_t i = 0; i < written.size; ++i) {
         char c = text[i];
         if (static_cast<unsigned char>(c) < 0x20) {
             c = '?';
@@ -19,8 +23,9 @@ std::size_t copy_text(std::string_view text, std::span<char> out, bool lower) {
             c = static_cast<char>(c - 'A' + 'a');
         }
         out[i] = c;
+        written.sum ^= static_cast<unsigned char>(c);
     }
-    return size;
+    return written;
 }
 
 /// Without its decimals, as a cast to int does it; -0.5 becomes 0, not -0. Bounds as write_fixed() has them.
@@ -57,6 +62,7 @@ FrameTemplate::FrameTemplate(std::string_view source, const Names& names) {
         add_value(source.substr(brace + 1, close - brace - 1), names);
         at = close + 1;
     }
+    literals_.append(copied_at_once, ' ');
 }
 
 void FrameTemplate::add_literal(std::string_view text) {
@@ -76,6 +82,7 @@ void FrameTemplate::add_literal(std::string_view text) {
         part.size = text.size();
         parts_.push_back(std::move(part));
     }
+    parts_.back().sum ^= protocol::xor_checksum(text);
     literals_ += text;
 }
 
@@ -117,15 +124,12 @@ void FrameTemplate::add_value(std::string_view inside, const Names& names) {
     parts_.push_back(std::move(part));
 }
 
-std::size_t FrameTemplate::render(const Scope& scope, std::span<char> out, bool& cut) const {
-    std::size_t size = 0;
+Written FrameTemplate::render(const Scope& scope, std::span<char> out, bool& cut) const {
+    Written line;
     for (const Part& part : parts_) {
-        const std::span<char> room = out.subspan(size);
+        const std::span<char> room = out.subspan(line.size);
         if (part.style == Style::literal) {
-            const std::size_t n = std::min(part.size, room.size());
-            std::memcpy(room.data(), literals_.data() + part.from, n);
-            cut = cut || n < part.size;
-            size += n;
+            line += put_literal(part, room, cut);
             continue;
         }
         const Value value = part.operand.evaluate(scope);
@@ -133,17 +137,33 @@ std::size_t FrameTemplate::render(const Scope& scope, std::span<char> out, bool&
             continue;
         }
         if (value.is_text()) {
-            const std::size_t n = copy_text(value.text, room, part.style == Style::lower);
-            cut = cut || n < value.text.size();
-            size += n;
+            const Written text = copy_text(value.text, room, part.style == Style::lower);
+            cut = cut || text.size < value.text.size();
+            line += text;
             continue;
         }
         const double number = part.style == Style::whole ? cut_off(value.number) : value.number;
-        const std::size_t n = write_fixed(room, number, part.decimals);
-        cut = cut || n == 0;
-        size += n;
+        const Written text = write_fixed(room, number, part.decimals);
+        cut = cut || text.size == 0;
+        line += text;
     }
-    return size;
+    return line;
+}
+
+Written FrameTemplate::put_literal(const Part& part, std::span<char> room, bool& cut) const {
+    const char* const text = literals_.data() + part.from;
+    if (part.size <= copied_at_once && room.size() >= copied_at_once) {
+        // Most are short, and a copy of fixed size is two instructions: literals_ is longer by as much.
+        std::memcpy(room.data(), text, copied_at_once);
+        return {part.size, part.sum};
+    }
+    if (part.size <= room.size()) {
+        std::memcpy(room.data(), text, part.size);
+        return {part.size, part.sum};
+    }
+    cut = true;
+    std::memcpy(room.data(), text, room.size());
+    return {room.size(), protocol::xor_checksum({text, room.size()})};
 }
 
 }  // namespace fauxboard::behaviour

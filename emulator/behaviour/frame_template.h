@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "emulator/behaviour/operand.h"
+#include "emulator/behaviour/written.h"
 
 namespace fauxboard::behaviour {
 
@@ -22,20 +23,22 @@ class FrameTemplate {
     /// Throws ExpressionError.
     FrameTemplate(std::string_view source, const Names& names);
 
-    /// Writes the line into `out` and returns its length; what does not fit is cut and `cut` set. A control
+    /// Writes the line into `out`; what does not fit is cut and `cut` set. A control
     /// character out of a text (a file name) becomes '?', so that nothing can break the line.
-    std::size_t render(const Scope& scope, std::span<char> out, bool& cut) const;
+    Written render(const Scope& scope, std::span<char> out, bool& cut) const;
 
   private:
     enum class Style : std::uint8_t { literal, fixed, whole, text, lower };
     struct Part {
         Style style = Style::literal;
+        std::uint8_t sum = 0;  ///< literal: XOR of its bytes
         int decimals = 0;
         std::size_t from = 0;  ///< literal: place in literals_
         std::size_t size = 0;
         Operand operand;
     };
 
+    Written put_literal(const Part& part, std::span<char> room, bool& cut) const;
     void add_literal(std::string_view text);
     void add_value(std::string_view inside, const Names& names);
 

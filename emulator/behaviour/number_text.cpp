@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "protocol/framing.h"
+
 namespace fauxboard::behaviour {
 namespace {
 
@@ -16,44 +18,71 @@ constexpr std::array<double, 7> powers{1, 10, 100, 1e3, 1e4, 1e5, 1e6};
 
 }  // namespace
 
-std::size_t write_fixed(std::span<char> out, double value, int decimals) {
+namespace {
+
+/// Near a tie the product below may have been rounded; the library decides from the exact value.
+Written write_exactly(std::span<char> out, double value, int decimals) {
+    std::array<char, 40> text;
+    const auto written = fmt::format_to_n(text.data(), text.size(), "{:.{}f}", value, decimals);
+    const auto size = static_cast<std::size_t>(written.out - text.data());
+    if (size > out.size()) {
+        return {};
+    }
+    std::memcpy(out.data(), text.data(), size);
+    return {size, protocol::xor_checksum({text.data(), size})};
+}
+
+std::size_t digits_of(std::uint32_t number) {
+    std::size_t digits = 1;
+    for (; number >= 100; number /= 100) {
+        digits += 2;
+    }
+    return digits + (number >= 10 ? 1 : 0);
+}
+
+}  // namespace
+
+Written write_fixed(std::span<char> out, double value, int decimals) {
     decimals = std::clamp(decimals, 0, 6);
     value = std::isfinite(value) ? std::clamp(value, -bound, bound) : 0.0;
     const double scaled = std::fabs(value) * powers[static_cast<std::size_t>(decimals)];
-    std::array<char, 40> text;
-    char* end = text.data() + text.size();
-    char* at = end;
-    const bool small = scaled < 1e9;
-    const auto whole = static_cast<std::int64_t>(small ? scaled : 0.0);
-    const double rest = scaled - static_cast<double>(whole);
-    if (small && std::fabs(rest - 0.5) > 1e-6) {
-        auto digits = static_cast<std::uint32_t>(whole) + (rest > 0.5 ? 1U : 0U);
-        for (int i = 0; i < decimals; ++i) {
-            *--at = static_cast<char>('0' + digits % 10);
-            digits /= 10;
-        }
-        if (decimals != 0) {
-            *--at = '.';
-        }
-        do {
-            *--at = static_cast<char>('0' + digits % 10);
-            digits /= 10;
-        } while (digits != 0);
-        if (std::signbit(value)) {
-            *--at = '-';
-        }
-    } else {
-        // Near a tie the product above may have been rounded; the library decides from the exact value.
-        const auto written = fmt::format_to_n(text.data(), text.size(), "{:.{}f}", value, decimals);
-        at = text.data();
-        end = written.out;
+    if (scaled >= 1e9) {
+        return write_exactly(out, value, decimals);
     }
-    const auto size = static_cast<std::size_t>(end - at);
+    auto number = static_cast<std::uint32_t>(scaled);
+    const double rest = scaled - number;
+    if (std::fabs(rest - 0.5) <= 1e-6) {
+        return write_exactly(out, value, decimals);
+    }
+    number += rest > 0.5 ? 1U : 0U;
+    const auto places = static_cast<std::size_t>(decimals);
+    const std::size_t sign = std::signbit(value) ? 1 : 0;
+    // Without the point; at least one digit stands before it.
+    const std::size_t digits = std::max(digits_of(number), places + 1);
+    const std::size_t size = sign + digits + (places != 0 ? 1 : 0);
     if (size > out.size()) {
-        return 0;
+        return {};
     }
-    std::memcpy(out.data(), at, size);
-    return size;
+    char* at = out.data() + size;
+    unsigned sum = 0;
+    const auto put = [&](unsigned character) {
+        *--at = static_cast<char>(character);
+        sum ^= character;
+    };
+    const auto put_digits = [&](std::size_t count) {
+        for (std::size_t i = 0; i < count; ++i, number /= 10) {
+            put('0' + number % 10);
+        }
+    };
+    if (places != 0) {
+        put_digits(places);
+        put('.');
+    }
+    put_digits(digits - places);
+    if (sign != 0) {
+        put('-');
+    }
+    return {size, sum};
 }
 
 }  // namespace fauxboard::behaviour

@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "emulator/behaviour/document.h"
 #include "emulator/behaviour/frame_template.h"
 #include "emulator/behaviour/rules.h"
+#include "emulator/behaviour/source.h"
 #include "emulator/printer/machine_config.h"
 #include "protocol/framing.h"
 

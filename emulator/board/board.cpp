@@ -22,6 +22,9 @@ constexpr std::size_t inbox_bytes = 8 * 1024;
 /// Longest message: a card listing. Its last lines must always fit, entries before them may be left out.
 constexpr std::size_t scratch_bytes = 8 * 1024;
 constexpr std::size_t closing_room = 256;
+/// A message of one line.
+constexpr std::size_t line_bytes = protocol::max_line_bytes + 16;
+constexpr std::size_t first_output = 2 * line_bytes;
 /// Without pacing, output is made as input comes; beyond this much untaken, requests wait.
 constexpr std::size_t output_limit = 16 * 1024;
 constexpr std::size_t told_limit = 256;
@@ -43,8 +46,8 @@ Board::Board(std::shared_ptr<const behaviour::Profile> profile, printer::Service
       wheel_(*profile_),
       inbox_(inbox_bytes, profile_->line.queue_lines),
       outbox_(outbox_bytes, outbox_messages),
+      output_(first_output),
       scratch_(scratch_bytes) {
-    output_.reserve(1024);
     if (services.eeprom != nullptr) {
         machine_.eeprom_image = services.eeprom->load().value_or(std::string{});
     }
@@ -195,7 +198,9 @@ void Board::run_rule(const Rule& rule, const Scope& here) {
 
 /// After anything that may have changed the machine: events, and what the main loop lost by it.
 void Board::settle() {
-    run_events();
+    if (!machine_.events.empty()) {
+        run_events();
+    }
     if (const int rounds = machine_.motion.take_lost_rounds(); rounds > 0) {
         wheel_.lose_rounds(rounds);
     }
@@ -228,7 +233,11 @@ void Board::send(const Send& entry, const Scope& here) {
     }
     const Frame& frame = profile_->frames[entry.frame];
     for (unsigned i = 0; i < entry.times; ++i) {
-        const std::string_view message(scratch_.data(), compose(frame, here));
+        const bool at_once = entry.now || !options_.pacing;
+        const bool short_one = frame.lines.size() == 1 && !frame.lines[0].for_each_entry;
+        Draft draft{at_once ? output_.room(short_one ? line_bytes : scratch_bytes)
+                            : std::span<char>(scratch_)};
+        compose(frame, here, draft);
         wheel_.sent(entry.frame, machine_);
         if (!frame.then.empty()) {
             ActionContext context{machine_, variables_, *this};
@@ -236,8 +245,11 @@ void Board::send(const Send& entry, const Scope& here) {
                 behaviour::run_action(call, here, profile_->variables, context);
             }
         }
-        if (entry.now || !options_.pacing) {
-            emit(message);
+        const std::string_view message(draft.room.data(), draft.size);
+        if (at_once) {
+            output_.grow(draft.size);
+            counters_.lines_sent += draft.lines;
+            tell_sent(message);
         } else if (!outbox_.push(message)) {
             ++counters_.messages_lost;
             notice(Level::warning, "message " + frame.name + " lost: the board's transmit queue is full");
@@ -245,46 +257,51 @@ void Board::send(const Send& entry, const Scope& here) {
     }
 }
 
-std::size_t Board::compose_line(const Frame& frame, const behaviour::FrameTemplate& text, const Scope& here,
-                                std::size_t at, std::size_t end) {
-    const std::span<char> room = std::span<char>(scratch_).subspan(at, end - at);
+/// Adds a line to the draft, of which it may use the room up to `end`.
+void Board::compose_line(const Frame& frame, const behaviour::FrameTemplate& text, const Scope& here,
+                         std::size_t end, Draft& draft) {
+    const std::span<char> room = draft.room.subspan(draft.size, end - draft.size);
     const std::size_t head = std::min(protocol::frame_head(frame.style), room.size());
     const std::size_t most = std::min(room.size() - head, protocol::max_line_bytes);
     bool cut = false;
-    const std::size_t size = text.render(here, room.subspan(head, most), cut);
+    const behaviour::Written body = text.render(here, room.subspan(head, most), cut);
     if (cut && most < protocol::max_line_bytes) {
-        return at;  // no room for the line: it is left out
+        return;  // no room for the line: it is left out
     }
     counters_.lines_cut += cut ? 1 : 0;
-    return at + protocol::dress_frame(room, size, frame.style);
+    const std::size_t size = protocol::dress_frame(room, body.size, body.sum, frame.style);
+    draft.size += size;
+    draft.lines += size != 0 ? 1 : 0;
 }
 
-std::size_t Board::compose(const Frame& frame, const Scope& here) {
-    std::size_t size = 0;
+void Board::compose(const Frame& frame, const Scope& here, Draft& draft) {
+    const std::size_t end = draft.room.size();
     for (const Frame::Line& line : frame.lines) {
         if (!line.for_each_entry) {
-            size = compose_line(frame, line.text, here, size, scratch_bytes);
+            compose_line(frame, line.text, here, end, draft);
             continue;
         }
         Scope inside = here;
         for (const printer::CardEntry& entry : machine_.listing()) {
             inside.entry = &entry;
-            size = compose_line(frame, line.text, inside, size, std::max(size, scratch_bytes - closing_room));
+            compose_line(frame, line.text, inside, std::max(draft.size, end - closing_room), draft);
             ++inside.index;
         }
     }
-    return size;
 }
 
+/// A message out of the queue goes on the wire.
 void Board::emit(std::string_view message) {
     output_.append(message);
-    while (!message.empty()) {
+    counters_.lines_sent += static_cast<std::uint64_t>(std::count(message.begin(), message.end(), '\n'));
+    tell_sent(message);
+}
+
+void Board::tell_sent(std::string_view message) {
+    while (options_.observer != nullptr && !message.empty()) {
         const std::size_t end = std::min(message.find('\n'), message.size() - 1);
-        ++counters_.lines_sent;
-        if (options_.observer != nullptr) {
-            const std::string_view line = message.substr(0, end);
-            options_.observer->on_sent(time_, line.substr(0, line.find_last_not_of("\r\n") + 1));
-        }
+        const std::string_view line = message.substr(0, end);
+        options_.observer->on_sent(time_, line.substr(0, line.find_last_not_of("\r\n") + 1));
         message.remove_prefix(end + 1);
     }
 }

@@ -12,6 +12,7 @@
 #include "emulator/behaviour/notice.h"
 #include "emulator/behaviour/profile.h"
 #include "emulator/board/message_queue.h"
+#include "emulator/board/output_buffer.h"
 #include "emulator/board/wheel.h"
 #include "emulator/printer/printer.h"
 #include "emulator/printer/sim_time.h"
@@ -104,7 +105,7 @@ class Board final : private behaviour::NoticeSink {
     SimTime advance(SimTime now);
 
     /// Bytes for the screen, since the last clear_output().
-    std::string_view output() const { return output_; }
+    std::string_view output() const { return output_.view(); }
     void clear_output() { output_.clear(); }
     /// The moment of the last thing done.
     SimTime time() const { return time_; }
@@ -131,10 +132,17 @@ class Board final : private behaviour::NoticeSink {
     void run_events();
     void settle();
     void send(const behaviour::Send& send, const behaviour::Scope& scope);
-    std::size_t compose(const behaviour::Frame& frame, const behaviour::Scope& scope);
-    std::size_t compose_line(const behaviour::Frame& frame, const behaviour::FrameTemplate& text,
-                             const behaviour::Scope& scope, std::size_t at, std::size_t end);
+    /// A message while it is written.
+    struct Draft {
+        std::span<char> room;
+        std::size_t size = 0;
+        unsigned lines = 0;
+    };
+    void compose(const behaviour::Frame& frame, const behaviour::Scope& scope, Draft& draft);
+    void compose_line(const behaviour::Frame& frame, const behaviour::FrameTemplate& text,
+                      const behaviour::Scope& scope, std::size_t end, Draft& draft);
     void emit(std::string_view message);
+    void tell_sent(std::string_view message);
     void step(SimTime due);
     void catch_up(SimTime now);
     void run_slots();
@@ -153,7 +161,7 @@ class Board final : private behaviour::NoticeSink {
     protocol::LineSplitter host_splitter_;
     MessageQueue inbox_;
     MessageQueue outbox_;
-    std::string output_;
+    OutputBuffer output_;
     std::vector<char> scratch_;
     std::vector<double> variables_;
     Counters counters_;

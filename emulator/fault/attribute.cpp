@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "emulator/fault/kind.h"
 #include "emulator/fault/quantity.h"

@@ -1,6 +1,7 @@
 #include "emulator/fault/fault_line.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 namespace fauxboard::fault {

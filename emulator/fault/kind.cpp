@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <nlohmann/json.hpp>
 
 #include "emulator/fault/kind_rows.h"
 #include "emulator/fault/quantity.h"

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <iterator>
+#include <nlohmann/json.hpp>
 
 #include "emulator/behaviour/wire_text.h"
 #include "emulator/host/compare.h"

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "emulator/behaviour/document.h"
+#include "emulator/behaviour/source.h"
 #include "emulator/screen/values.h"
 
 namespace fauxboard::screen {

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "emulator/behaviour/document.h"
+#include "emulator/behaviour/source.h"
 #include "emulator/printer/sim_time.h"
 #include "emulator/screen/expression.h"
 #include "emulator/screen/values.h"

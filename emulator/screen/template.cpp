@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "emulator/behaviour/nearest.h"
 #include "emulator/behaviour/operand.h"

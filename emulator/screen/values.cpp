@@ -46,7 +46,7 @@ std::string fixed_text(double value, int decimals) {
         return std::isnan(value) ? "nan" : value < 0 ? "-inf" : "inf";
     }
     std::array<char, 48> text{};
-    std::string out(text.data(), behaviour::write_fixed(text, value, decimals));
+    std::string out(text.data(), behaviour::write_fixed(text, value, decimals).size);
     if (out.starts_with('-') && out.find_first_not_of("-0.") == std::string::npos) {
         out.erase(0, 1);
     }

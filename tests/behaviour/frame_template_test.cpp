@@ -5,6 +5,7 @@
 #include <array>
 #include <string>
 
+#include "protocol/framing.h"
 #include "tests/support/small_profile.h"
 
 using namespace fauxboard;
@@ -33,9 +34,11 @@ struct Bench {
     string render(const string& source) {
         std::array<char, 256> out;
         bool cut = false;
-        const std::size_t size = FrameTemplate(source, names).render(scope(), out, cut);
+        const Written line = FrameTemplate(source, names).render(scope(), out, cut);
         CHECK_FALSE(cut);
-        return {out.data(), size};
+        string text(out.data(), line.size);
+        CHECK(line.sum == protocol::xor_checksum(text));
+        return text;
     }
     string error(const string& source) {
         try {
@@ -108,9 +111,10 @@ TEST_CASE("templates: what does not fit is cut, and said") {
             std::array<char, 16> out;
             out.fill('#');
             bool cut = false;
-            const std::size_t size = FrameTemplate(source, bench.names)
-                                         .render(bench.scope(), std::span<char>(out).first(room), cut);
-            CHECK(size <= room);
+            const Written line = FrameTemplate(source, bench.names)
+                                     .render(bench.scope(), std::span<char>(out).first(room), cut);
+            CHECK(line.size <= room);
+            CHECK(line.sum == protocol::xor_checksum({out.data(), line.size}));
             CHECK(cut);
             CHECK(out[room] == '#');
         }

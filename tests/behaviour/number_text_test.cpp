@@ -9,13 +9,18 @@
 #include <random>
 #include <string>
 
+#include "protocol/framing.h"
+
 using fauxboard::behaviour::write_fixed;
 
 namespace {
 
 std::string written(double value, int decimals) {
     std::array<char, 64> out{};
-    return {out.data(), write_fixed(out, value, decimals)};
+    const auto number = write_fixed(out, value, decimals);
+    const std::string text(out.data(), number.size);
+    CHECK(number.sum == fauxboard::protocol::xor_checksum(text));
+    return text;
 }
 
 std::string expected(double value, int decimals) {
@@ -78,7 +83,7 @@ TEST_CASE("numbers: nothing is written where there is no room") {
     for (std::size_t room = 0; room <= 8; ++room) {
         std::array<char, 8> out;
         out.fill('#');
-        const std::size_t size = write_fixed(std::span<char>(out).first(room), -123.45, 2);
+        const std::size_t size = write_fixed(std::span<char>(out).first(room), -123.45, 2).size;
         CHECK(size == (room >= 7 ? 7 : 0));
         for (std::size_t i = size; i < out.size(); ++i) {
             CHECK(out[i] == '#');

@@ -7,6 +7,7 @@
 #include <valijson/validator.hpp>
 
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "emulator/behaviour/operand.h"
 #include "tests/screen/harness.h"

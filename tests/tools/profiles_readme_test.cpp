@@ -1,6 +1,7 @@
 // Every example of profiles/README.md is a profile that loads on top of the common base and fits the schema.
 
 #include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
 
 #include "emulator/behaviour/profile.h"
 #include "emulator/host/profile_files.h"
