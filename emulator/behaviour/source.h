@@ -1,7 +1,8 @@
 #pragma once
 
-// Where profiles come from and how their mistakes are told. Apart from document.h, since most of the house needs
-// no more than this, and the JSON library's header takes longer to compile than most files that would include it.
+// Where profiles come from and how their mistakes are told. Apart from document.h, since most of the house
+// needs no more than this, and the JSON library's header takes longer to compile than most files that would
+// include it.
 
 #include <cstddef>
 #include <functional>

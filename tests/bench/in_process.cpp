@@ -158,11 +158,8 @@ std::vector<Figure> allocation(const Settings& settings) {
     const std::uint64_t before = allocations().calls;
     const std::size_t requests = settings.smoke ? 1000 : 100'000;
     passes(requests / subject.requests().size() + 1);
-    return {{"allocations in 100 000 requests",
-             "calls",
-             static_cast<double>(allocations().calls - before),
-             {},
-             0}};
+    const auto calls = static_cast<double>(allocations().calls - before);  // before the figure makes some
+    return {{"allocations in 100 000 requests", "calls", calls, {}, 0}};
 }
 
 std::vector<Figure> memory(const Settings& settings) {

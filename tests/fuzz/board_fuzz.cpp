@@ -113,6 +113,9 @@ void Run::take(SimTime time, std::string_view output) {
 }
 
 void Run::feed(bool host, std::string_view bytes) {
+    if (bytes.empty()) {
+        return;  // no link hands over nothing; a call at all makes the board catch up
+    }
     const SimTime when = std::max(SimTime{0}, now_ - back_);
     const auto give = [&](std::string_view piece) {
         host ? board_.receive_host(when, piece) : board_.receive(when, piece);
