@@ -384,6 +384,12 @@ void Board::catch_up(SimTime now) {
     while (nothing_before() < now && output_.size() < output_limit) {
         const SimTime due = next_due();
         if (due >= now) {
+            // Nothing can come of the slots up to here. They are gone through now, else the next call would
+            // find them overdue, and with them the one that is due at this very moment, before what comes
+            // with this one.
+            while (wheel_.next_slot() < now) {
+                wheel_.turn(scope());
+            }
             break;
         }
         step(due);

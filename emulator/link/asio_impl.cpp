@@ -5,4 +5,8 @@
 #pragma GCC diagnostic ignored "-Wnull-dereference"
 #endif
 
+// Before it: Asio looks at what the standard library has, which only one of its headers can tell, and must
+// see the same in every file.
+#include <cstddef>
+//
 #include <asio/impl/src.hpp>

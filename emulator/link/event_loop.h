@@ -2,7 +2,10 @@
 
 // The part of Asio that this project runs on, in one place: Asio's headers, once inlined, raise a false
 // -Wnull-dereference in GCC 12 which "system header" does not silence. Include this before any other Asio
-// header.
+// header. A header of the standard library comes first, since Asio looks at what the library has and must see
+// the same in every file.
+
+#include <cstddef>
 
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic push

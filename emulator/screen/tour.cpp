@@ -71,7 +71,7 @@ SimTime Tour::advance(SimTime now) {
         const SimTime screen_next = screen_.advance(std::min(now, std::max(due(), screen_.time())));
         collect();
         if (!screen_.output().empty() || done()) {
-            return screen_next;
+            return done() ? screen_next : std::min(screen_next, due());
         }
         const bool again = screen_.time() >= due() && step();
         if (!screen_.output().empty()) {

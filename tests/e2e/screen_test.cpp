@@ -1,5 +1,6 @@
 // `fauxboard screen` as its user has it: the real program against the real board's program.
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 
@@ -56,6 +57,37 @@ TEST_CASE("the tour presses every button of the screen, and the board meets ever
         CHECK(count_of(junit, "<testcase ") == std::stoul(buttons));
         CHECK(contains(junit, "tests=\"" + buttons + "\" failures=\"0\""));
     }
+}
+
+/// What one side said, of a recording.
+std::vector<std::string> said(const std::string& file, host::RecordedLine::From side) {
+    std::vector<std::string> lines;
+    for (const host::RecordedLine& line : host::load_recording(file)) {
+        if (line.from == side) {
+            lines.push_back(line.bytes);
+        }
+    }
+    return lines;
+}
+
+TEST_CASE("the tour passes with a tap in between, which records all that either side said") {
+    const TemporaryFolder folder;
+    Program board({"run", "--no-pacing", "-q", "--speed", fast, "--record", folder.file("board.jsonl")});
+    const std::string path = board.ready()["path"];
+    Program tap({"tap", path, "pty", "--board", "A", "-q", "--record", folder.file("tap.jsonl")});
+    const std::string other_end = tap.ready()["b"]["path"];
+    const Result tour = run({"screen", "--port", other_end, "--speed", fast, "tour"});
+    INFO(tour.out);
+    CHECK(tour.code == 0);
+    CHECK(tap.stop() == 0);
+    CHECK(board.stop() == 0);
+    using From = host::RecordedLine::From;
+    CHECK(said(folder.file("tap.jsonl"), From::screen) == said(folder.file("board.jsonl"), From::screen));
+    // The tap came to a board that had been talking already, and left before it ended.
+    const std::vector<std::string> passed = said(folder.file("tap.jsonl"), From::board);
+    const std::vector<std::string> all = said(folder.file("board.jsonl"), From::board);
+    CHECK(passed.size() > 400);
+    CHECK(std::search(all.begin(), all.end(), passed.begin(), passed.end()) != all.end());
 }
 
 TEST_CASE("a board with one reply broken makes the tour fail with a sentence that names it") {
