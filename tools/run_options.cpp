@@ -4,6 +4,8 @@
 #include <CLI/Option.hpp>
 #include <stdexcept>
 
+#include "tools/option_values.h"
+
 namespace fauxboard::tools {
 namespace {
 
@@ -21,9 +23,7 @@ void declare_line(CLI::App& command, RunOptions& options) {
                            ->expected(0, 1);
     port->excludes(tcp)->excludes(pty);
     tcp->excludes(pty);
-    command.add_option("--baud", options.baud, "Bits per second (default: the profile's)")
-        ->type_name("N")
-        ->check(CLI::Range(50U, 4'000'000U));
+    add_baud(command, options.baud, "Bits per second (default: the profile's)");
     command.add_flag_callback(
         "--no-pacing", [&options] { options.pacing = false; },
         "Reply at once instead of on the board's transmit tick");
@@ -44,20 +44,7 @@ void declare_time(CLI::App& command, RunOptions& options) {
             },
             "Virtual seconds per second; 'max' never waits")
         ->type_name("N|max");
-    command
-        .add_option_function<std::string>(
-            "--duration",
-            [&options](const std::string& text) {
-                const auto duration = host::parse_duration(text);
-                if (!duration) {
-                    throw CLI::ValidationError("--duration", "'" + text +
-                                                                 "' is no time; expected 500ms, 10s, 5min, "
-                                                                 "24h or seconds");
-                }
-                options.duration = *duration;
-            },
-            "Stop after this virtual time: 500ms, 10s, 5min, 24h")
-        ->type_name("T");
+    add_duration(command, options.duration, "Stop after this virtual time");
     command.add_option("--seed", options.seed, "Of all noise: the same seed and input give the same bytes")
         ->type_name("N")
         ->check(CLI::NonNegativeNumber);

@@ -3,6 +3,8 @@
 #include <CLI/Error.hpp>
 #include <CLI/Option.hpp>
 
+#include "tools/option_values.h"
+
 namespace fauxboard::tools {
 namespace {
 
@@ -38,9 +40,7 @@ void declare_screen_options(CLI::App& command, ScreenOptions& options) {
         .add_option("--screen", options.screen,
                     "The screen: a name of `fauxboard profiles`, or a file (geeetech-a30t)")
         ->type_name("NAME|FILE");
-    command.add_option("--baud", options.baud, "Bits per second of a serial port (115200)")
-        ->type_name("N")
-        ->check(CLI::Range(50U, 4'000'000U));
+    add_baud(command, options.baud, "Bits per second of a serial port (115200)");
     command
         .add_option_function<std::string>(
             "--speed", [&options](const std::string& text) { set_speed(options, text); },

@@ -18,6 +18,7 @@
 #include "emulator/link/link.h"
 #include "emulator/link/ports.h"
 #include "protocol/annotate.h"
+#include "tools/option_values.h"
 #include "tools/report.h"
 
 namespace fauxboard::tools {
@@ -193,9 +194,7 @@ void add_send(CLI::App& app, ExitCode& exit) {
         ->type_name("DEV|auto");
     line->add_option("--tcp", options->tcp, "Connect to a socket")->type_name("HOST:PORT");
     line->require_option(1);
-    command->add_option("--baud", options->baud, "Bits per second (115200)")
-        ->type_name("N")
-        ->check(CLI::Range(50U, 4'000'000U));
+    add_baud(*command, options->baud, "Bits per second (115200)");
     command->add_flag("--bare", options->bare, "Send as it is, without prefix and checksum");
     command->add_option("--wait", options->wait_ms, "Quiet time that ends an answer, in ms (500)")
         ->type_name("MS")

@@ -24,6 +24,7 @@
 #include "emulator/host/tap_log.h"
 #include "emulator/host/tap_talk.h"
 #include "emulator/link/event_loop.h"
+#include "tools/option_values.h"
 #include "tools/report.h"
 // After event_loop.h, which see.
 #include <asio/signal_set.hpp>
@@ -246,10 +247,7 @@ void declare(CLI::App& command, TapOptions& options) {
         ->type_name("A B")
         ->required()
         ->expected(2);
-    command.add_option("--baud", options.baud, "Bits per second of serial ports")
-        ->type_name("N")
-        ->check(CLI::Range(50U, 4'000'000U))
-        ->capture_default_str();
+    add_baud(command, options.baud, "Bits per second of serial ports")->capture_default_str();
     command
         .add_option_function<std::string>(
             "--board",
@@ -267,20 +265,7 @@ void declare(CLI::App& command, TapOptions& options) {
         ->expected(1)
         ->take_all();
     command.add_flag("--decode", options.log.words, "Say in words what each line means");
-    command
-        .add_option_function<std::string>(
-            "--duration",
-            [&options](const std::string& text) {
-                const auto duration = host::parse_duration(text);
-                if (!duration) {
-                    throw CLI::ValidationError("--duration", "'" + text +
-                                                                 "' is no time; expected 500ms, 10s, 5min, "
-                                                                 "24h or seconds");
-                }
-                options.duration = *duration;
-            },
-            "Stop after this time: 500ms, 10s, 5min, 24h")
-        ->type_name("T");
+    add_duration(command, options.duration, "Stop after this time");
     command.add_flag("--json", options.json, "The talk as JSON lines on stdout, instead of text on stderr");
     CLI::Option* verbose = command.add_flag("-v,--verbose", options.verbose,
                                             "Say every ten seconds how late bytes were passed on");

@@ -329,9 +329,10 @@ SimTime Board::nothing_before() const {
     return std::min({machine_.next_event(), next_tick(), wheel_.next_slot()});
 }
 
-void Board::run_slots() {
-    // Slots passed over because nothing could come of them are gone through now, for their rounds to count.
-    while (wheel_.next_slot() <= time_ && output_.size() < output_limit) {
+/// Goes through the slots before `end`. Those passed over because nothing could come of them are among them,
+/// for their rounds to count.
+void Board::run_slots(SimTime end) {
+    while (wheel_.next_slot() < end && output_.size() < output_limit) {
         const behaviour::Slot* slot = wheel_.turn(scope());
         if (slot != nullptr) {
             Send entry;
@@ -373,7 +374,7 @@ void Board::step(SimTime due) {
     time_ = std::max(time_, due);
     machine_.advance(time_);
     settle();
-    run_slots();
+    run_slots(time_ + SimTime{1});
     if (next_tick() <= time_) {
         run_tick();
     }
@@ -384,12 +385,9 @@ void Board::catch_up(SimTime now) {
     while (nothing_before() < now && output_.size() < output_limit) {
         const SimTime due = next_due();
         if (due >= now) {
-            // Nothing can come of the slots up to here. They are gone through now, else the next call would
-            // find them overdue, and with them the one that is due at this very moment, before what comes
-            // with this one.
-            while (wheel_.next_slot() < now) {
-                wheel_.turn(scope());
-            }
+            // Nothing comes of the slots up to here. They are gone through now, else the next call would find
+            // them overdue, and with them the one due at this very moment, before what comes with this call.
+            run_slots(now);
             break;
         }
         step(due);

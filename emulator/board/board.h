@@ -145,7 +145,7 @@ class Board final : private behaviour::NoticeSink {
     void tell_sent(std::string_view message);
     void step(SimTime due);
     void catch_up(SimTime now);
-    void run_slots();
+    void run_slots(SimTime end);
     void run_tick();
     SimTime next_tick() const;
     SimTime next_due() const;

@@ -19,18 +19,6 @@ using Socket = link::LocalListener::Socket;
 /// Virtual time that may be skipped before the event loop gets its turn.
 constexpr SimTime skip_at_once = std::chrono::minutes(1);
 
-std::string_view name(link::LinkState state) {
-    switch (state) {
-        case link::LinkState::up:
-            return "up";
-        case link::LinkState::waiting:
-            return "waiting";
-        case link::LinkState::opening:
-            break;
-    }
-    return "opening";
-}
-
 }  // namespace
 
 /// A session on a socket. Never waits: what the client does not read stays here, within the session's bounds.
@@ -210,7 +198,7 @@ void ControlServer::leave(const Client& client) {
 }
 
 void ControlServer::on_link(SimTime now, link::LinkState state, std::string_view why) {
-    hub_.on_link(now, name(state), why);
+    hub_.on_link(now, link::state_name(state), why);
 }
 
 /// Skips a stretch and posts itself for the next one: a jump of days must not make the channel deaf.
@@ -245,7 +233,7 @@ control::Json ControlServer::status() const {
     return {{"link",
              {{"kind", parts_.link.kind()},
               {"path", parts_.link.path()},
-              {"state", name(parts_.link.state())},
+              {"state", link::state_name(parts_.link.state())},
               {"bytes_in", stats.bytes_in},
               {"bytes_out", stats.bytes_out},
               {"bytes_lost", stats.bytes_lost}}}};

@@ -33,18 +33,6 @@ std::string_view refusal(board::Verdict verdict) {
     return "";
 }
 
-std::string_view name(link::LinkState state) {
-    switch (state) {
-        case link::LinkState::up:
-            return "up";
-        case link::LinkState::waiting:
-            return "waiting";
-        case link::LinkState::opening:
-            break;
-    }
-    return "opening";
-}
-
 }  // namespace
 
 void JsonLog::write(SimTime now, std::string_view members) {
@@ -76,7 +64,7 @@ void JsonLog::on_notice(SimTime now, board::Level level, std::string_view text) 
 }
 
 void JsonLog::on_link(SimTime now, link::LinkState state, std::string_view why) {
-    write(now, fmt::format(R"("link": "{}", "why": {})", name(state), json_text(why)));
+    write(now, fmt::format(R"("link": "{}", "why": {})", link::state_name(state), json_text(why)));
 }
 
 }  // namespace fauxboard::host

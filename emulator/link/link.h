@@ -25,6 +25,12 @@ enum class LinkState : std::uint8_t {
     up,       ///< somebody is at the other end
 };
 
+/// "opening", "waiting", "up": for programs that read what is logged.
+constexpr std::string_view state_name(LinkState state) {
+    constexpr std::string_view names[] = {"opening", "waiting", "up"};
+    return names[static_cast<std::size_t>(state)];
+}
+
 /// Told what arrives. Called from the event loop only, never from inside open(), write() or close(), and
 /// never after close(). May call any function of the link, and may destroy it; must not throw.
 class LinkListener {

@@ -15,12 +15,7 @@ namespace {
 /// A board ready to be fed, in a stretch in which it says nothing by itself.
 struct Ready {
     BoardDriver driver;
-    explicit Ready(const char* profile = "geeetech-a30t") : driver(profile) {
-        driver.run_until(1);
-        driver.meet_screen();
-        driver.run_until(3.4);
-        driver.run_to_quiet();
-    }
+    explicit Ready(const char* profile = "geeetech-a30t") : driver(profile) { driver.finish_boot(); }
 
     /// Feeds, and gives what the board says to it.
     string answer(const string& bytes) {

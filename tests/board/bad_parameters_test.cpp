@@ -16,12 +16,7 @@ namespace {
 
 struct Ready {
     BoardDriver driver;
-    explicit Ready(const char* profile = "geeetech-a30t") : driver(profile) {
-        driver.run_until(1);
-        driver.meet_screen();
-        driver.run_until(3.4);
-        driver.run_to_quiet();
-    }
+    explicit Ready(const char* profile = "geeetech-a30t") : driver(profile) { driver.finish_boot(); }
     string ask(const string& body) {
         driver.run_to_quiet();
         return join(driver.ask(body, 0.4));

@@ -5,19 +5,8 @@
 namespace fauxboard::e2e {
 namespace {
 
-constexpr int usage = 2;
-constexpr int bad_input = 3;
-constexpr int no_port = 4;
-constexpr int timed_out = 5;
-
-struct Wrong {
-    Args args;
-    int code;
-    std::string says;
-};
-
 TEST_CASE("each mistake has its exit code and its sentence, and says nothing on stdout") {
-    const std::vector<Wrong> mistakes{
+    const std::vector<Mistake> mistakes{
         {{}, usage, "subcommand"},
         {{"frobnicate"}, usage, "there is no command 'frobnicate'"},
         {{"rum"}, usage, "did you mean 'run'?"},
@@ -47,17 +36,7 @@ TEST_CASE("each mistake has its exit code and its sentence, and says nothing on 
         {{"send", "--port", "/dev/ttyMISSING", "M105"}, no_port, "/dev/ttyMISSING"},
         {{"send", "--port", "/dev/ttyMISSING", "--wait", "0", "M105"}, usage, "--wait"},
     };
-    for (const Wrong& wrong : mistakes) {
-        const Result result = run(wrong.args);
-        std::string words;
-        for (const std::string& arg : wrong.args)
-            words += arg + ' ';
-        CAPTURE(words);
-        CAPTURE(result.errors);
-        CHECK(result.code == wrong.code);
-        CHECK(result.out.empty());
-        CHECK(contains(result.errors, wrong.says));
-    }
+    check_mistakes(mistakes);
 }
 
 TEST_CASE("help says what it is, and that it is no printer") {

@@ -13,11 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int failed = 1;
-constexpr int usage = 2;
-constexpr int no_port = 4;
-constexpr int timed_out = 5;
-
 struct Live {
     explicit Live(const Args& more = {}) : program(with(control, more)), where(program.ready()) {
         CHECK(where["control"] == control);
@@ -113,12 +108,7 @@ TEST_CASE("a socket in use is refused, one of a killed program replaced, a file 
 
 TEST_CASE("each no has its exit code and its sentence") {
     Live live;
-    struct Wrong {
-        Args args;
-        int code;
-        std::string says;
-    };
-    const std::vector<Wrong> all{
+    const std::vector<Mistake> all{
         {{"get", "heaters.nozle"}, failed, "Did you mean \"heaters.nozzle\"?"},
         {{"set", "heaters.nozzle.target=2000"}, failed, "expected 0 to 1000 C"},
         {{"set", "heaters.nozzle.true=20"}, failed, "can be read but not set"},
@@ -136,7 +126,7 @@ TEST_CASE("each no has its exit code and its sentence") {
         {{"frobnicate"}, usage, "subcommand is required"},
         {{}, usage, "subcommand"},
     };
-    for (const Wrong& wrong : all) {
+    for (const Mistake& wrong : all) {
         const Result result = live.ctl(wrong.args);
         CAPTURE(wrong.says);
         CAPTURE(result.errors);

@@ -162,6 +162,21 @@ Result run(const Args& args) {
     return result;
 }
 
+void check_mistakes(const std::vector<Mistake>& mistakes) {
+    for (const Mistake& mistake : mistakes) {
+        const Result result = run(mistake.args);
+        std::string words;
+        for (const std::string& arg : mistake.args) {
+            words += arg + ' ';
+        }
+        CAPTURE(words);
+        CAPTURE(result.errors);
+        CHECK(result.code == mistake.code);
+        CHECK(result.out.empty());
+        CHECK(contains(result.errors, mistake.says));
+    }
+}
+
 Peer::Peer(const std::string& where)
     : fd_(where.starts_with('/') ? link::test::open_terminal(where) : connect_to(where)),
       reader_(fd_.get()) {}

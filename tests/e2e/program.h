@@ -19,6 +19,13 @@ using link::test::TemporaryFolder;
 using protocol::frame;
 using Args = std::vector<std::string>;
 
+// What the exit codes say is a contract with scripts, and so written down here once more.
+constexpr int failed = 1;
+constexpr int usage = 2;
+constexpr int bad_input = 3;
+constexpr int no_port = 4;
+constexpr int timed_out = 5;
+
 /// How long anything may take before a test gives up. Nothing is ever waited for that long in a passing test.
 inline constexpr int patience_ms = 60'000;
 
@@ -72,6 +79,15 @@ struct Result {
     std::string errors;
 };
 Result run(const Args& args);
+
+/// Something that cannot work, and what is to be said of it.
+struct Mistake {
+    Args args;
+    int code;
+    std::string says;
+};
+/// Each is refused with its exit code and its sentence, and nothing on stdout.
+void check_mistakes(const std::vector<Mistake>& mistakes);
 
 /// The screen's end of the line.
 class Peer {

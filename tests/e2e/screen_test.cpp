@@ -12,12 +12,6 @@
 namespace fauxboard::e2e {
 namespace {
 
-constexpr int failed = 1;
-constexpr int usage = 2;
-constexpr int bad_input = 3;
-constexpr int no_port = 4;
-constexpr int timed_out = 5;
-
 /// Also where time is no matter: only a clock that runs ahead makes the screen patient with a busy computer.
 const std::string fast = "100";
 
@@ -220,18 +214,13 @@ TEST_CASE("a board that goes away ends it: exit code 4") {
 }
 
 TEST_CASE("each mistake has its exit code and its sentence") {
-    struct Wrong {
-        Args args;
-        int code;
-        std::string says;
-    };
     const Args line{"screen", "--port", "/dev/ttyMISSING"};
     const auto with = [&](Args more) {
         more.insert(more.begin(), line.begin(), line.end());
         return more;
     };
     const link::test::OtherPty pty;
-    const std::vector<Wrong> mistakes{
+    const std::vector<Mistake> mistakes{
         {{"screen"}, usage, "subcommand"},
         {{"screen", "tour"}, usage, "--port"},
         {with({"--tcp", ":1", "tour"}), usage, "--tcp"},
@@ -254,17 +243,7 @@ TEST_CASE("each mistake has its exit code and its sentence") {
         {{"screen", "--port", pty.path, "press", "Screen lock PW=99999"}, usage, "from 0 to 9999"},
         {{"screen", "--port", pty.path, "show", "Control/Sped"}, usage, "did you mean \"Control/Speed\""},
     };
-    for (const Wrong& wrong : mistakes) {
-        const Result result = run(wrong.args);
-        std::string words;
-        for (const std::string& arg : wrong.args)
-            words += arg + ' ';
-        CAPTURE(words);
-        CAPTURE(result.errors);
-        CHECK(result.code == wrong.code);
-        CHECK(result.out.empty());
-        CHECK(contains(result.errors, wrong.says));
-    }
+    check_mistakes(mistakes);
 }
 
 }  // namespace

@@ -196,13 +196,11 @@ std::string play(std::string_view script, bool split) {
     };
     Run run(digit(0) - '0', digit(1), split);
     script.remove_prefix(std::min<std::size_t>(script.size(), 2));
-    while (!script.empty()) {
-        const std::size_t end = std::min(script.find('\n'), script.size());
-        if (end != 0) {
-            run.step(script.substr(0, end));
+    for_each_line(script, [&](std::string_view line) {
+        if (!line.empty()) {
+            run.step(line);
         }
-        script.remove_prefix(std::min(end + 1, script.size()));
-    }
+    });
     run.finish();
     return run.transcript();
 }

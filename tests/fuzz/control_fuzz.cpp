@@ -196,11 +196,12 @@ void Run::finish() {
 
 std::string play(std::string_view script, std::size_t chunk) {
     Run run(chunk);
-    for (std::size_t steps = 0; !script.empty() && steps < many_steps; ++steps) {
-        const std::size_t end = std::min(script.find('\n'), script.size());
-        run.line(script.substr(0, end));
-        script.remove_prefix(std::min(end + 1, script.size()));
-    }
+    std::size_t steps = 0;
+    for_each_line(script, [&](std::string_view line) {
+        if (steps++ < many_steps) {
+            run.line(line);
+        }
+    });
     run.finish();
     return run.transcript();
 }

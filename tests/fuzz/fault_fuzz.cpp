@@ -175,13 +175,12 @@ void Run::finish() {
 }
 
 void play(std::string_view script, Run& run) {
-    for (std::size_t steps = 0; !script.empty() && steps < many_steps; ++steps) {
-        const std::size_t end = std::min(script.find('\n'), script.size());
-        if (end != 0) {
-            run.step(script.substr(0, end));
+    std::size_t steps = 0;
+    for_each_line(script, [&](std::string_view line) {
+        if (steps++ < many_steps && !line.empty()) {
+            run.step(line);
         }
-        script.remove_prefix(std::min(end + 1, script.size()));
-    }
+    });
     run.finish();
 }
 

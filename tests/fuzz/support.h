@@ -2,6 +2,7 @@
 
 // What the fuzz targets share: how a broken rule is reported, and what every line of a board must look like.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -20,6 +21,16 @@ namespace fauxboard::fuzz {
 inline void require(bool holds, std::string_view rule) {
     if (!holds) {
         fail(rule);
+    }
+}
+
+/// Calls step(line) for each line of a script, empty ones too, their ends left off.
+template <class Step>
+void for_each_line(std::string_view script, Step&& step) {
+    while (!script.empty()) {
+        const std::size_t end = std::min(script.find('\n'), script.size());
+        step(script.substr(0, end));
+        script.remove_prefix(std::min(end + 1, script.size()));
     }
 }
 

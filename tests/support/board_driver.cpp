@@ -103,6 +103,13 @@ void BoardDriver::world(std::string_view phrase) {
     take_output();
 }
 
+void BoardDriver::finish_boot() {
+    run_until(1);
+    meet_screen();
+    run_until(3.4);
+    run_to_quiet();
+}
+
 void BoardDriver::meet_screen() {
     press("M2134 FW:V1.02.xx");
     run_for(0.15);

@@ -65,6 +65,9 @@ class BoardDriver final : private board::Observer {
     void world(std::string_view phrase);
     /// Tells the screen's firmware, so that L21 stops, and runs on until the answer is there.
     void meet_screen();
+    /// The boot is over, the screen is known, and the board is in a stretch in which it says nothing by
+    /// itself.
+    void finish_boot();
     /// The whole hotend at once at that temperature.
     void heat_nozzle(double c);
 

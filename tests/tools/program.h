@@ -5,22 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "tests/link/helpers.h"
+
 namespace fauxboard::test {
 
 /// A new folder, removed with all that is in it.
-class TemporaryFolder {
+class TemporaryFolder : public link::test::TemporaryFolder {
   public:
-    TemporaryFolder();
-    ~TemporaryFolder();
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-    std::string file(const std::string& name) const { return path_ + '/' + name; }
     /// Writes a file and returns its path.
     std::string put(const std::string& name, const std::string& bytes) const;
-
-  private:
-    std::string path_;
 };
 
 struct Outcome {
