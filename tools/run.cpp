@@ -88,6 +88,7 @@ class Run {
     host::Observers observers_;
     std::shared_ptr<const behaviour::Profile> profile_;
     std::optional<host::FolderCard> card_;
+    std::optional<host::FolderCard> udisk_;
     std::optional<host::EepromFile> eeprom_;
     std::optional<host::Recorder> recorder_;
     std::unique_ptr<host::Clock> clock_;
@@ -126,6 +127,15 @@ void Run::set_up() {
     printer::Services services;
     if (!options_.sd.empty()) {
         services.sd = &card_.emplace(options_.sd);
+    }
+    if (!options_.udisk.empty()) {
+        if (!profile_->machine->udisk_port) {
+            throw host::HostError(
+                fmt::format("The board of the profile {} has no port for a U-disk. Leave --udisk out, or say "
+                            "\"machine\": {{\"udisk_port\": true}} in a profile of your own that extends it.",
+                            profile_->name));
+        }
+        services.udisk = &udisk_.emplace(options_.udisk, "the U-disk");
     }
     if (!options_.eeprom.empty()) {
         services.eeprom = &eeprom_.emplace(options_.eeprom, warn);

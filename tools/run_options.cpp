@@ -76,6 +76,10 @@ void declare_run_options(CLI::App& command, RunOptions& options) {
     declare_line(command, options);
     command.add_option("--sd", options.sd, "Folder that is the SD card (default: a small built-in card)")
         ->type_name("DIR");
+    command
+        .add_option("--udisk", options.udisk,
+                    "Folder that is the U-disk, of a board with a port for one (default: none)")
+        ->type_name("DIR");
     command.add_option("--eeprom", options.eeprom, "File that keeps the board's settings (default: none)")
         ->type_name("FILE");
     declare_time(command, options);

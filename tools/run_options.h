@@ -22,6 +22,7 @@ struct RunOptions {
     host::Speed speed;
     std::uint64_t seed = 1;
     std::string sd;                   ///< folder; empty: the card that the profile carries
+    std::string udisk;                ///< folder; empty: none
     std::string eeprom;               ///< file; empty: in memory
     std::string record;               ///< file; empty: none
     std::string control;              ///< socket of the control channel; empty: none

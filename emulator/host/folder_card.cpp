@@ -71,9 +71,9 @@ std::vector<std::string> read_names(DIR* folder) {
 
 }  // namespace
 
-FolderCard::FolderCard(std::string folder) : root_(std::move(folder)) {
+FolderCard::FolderCard(std::string folder, std::string_view what) : root_(std::move(folder)) {
     if (!open_root()) {
-        throw HostError(fmt::format("{} cannot be the SD card ({}). Name a folder that you may read.", root_,
+        throw HostError(fmt::format("{} cannot be {} ({}). Name a folder that you may read.", root_, what,
                                     std::system_category().message(errno)));
     }
     // The program may change its current folder; the card stays where it is.

@@ -7,17 +7,17 @@
 
 namespace fauxboard::host {
 
-/// A folder of this computer as the printer's SD card. Shows regular files and folders only, and never leaves
-/// the folder: symlinks, devices and pipes are not there. It is looked at anew each time, so it may change,
-/// or vanish (an empty card) and come back. Names are bytes, whatever their encoding; names with control
-/// characters are left out, since they would break the line.
+/// A folder of this computer as the printer's SD card, or U-disk. Shows regular files and folders only, and
+/// never leaves the folder: symlinks, devices and pipes are not there. It is looked at anew each time, so it
+/// may change, or vanish (an empty card) and come back. Names are bytes, whatever their encoding; names with
+/// control characters are left out, since they would break the line.
 class FolderCard final : public printer::Volume {
   public:
     static constexpr std::size_t max_entries =
         4096;  ///< of one folder: the first by name; the rest is left out
 
-    /// Throws HostError when `folder` is not a readable folder now.
-    explicit FolderCard(std::string folder);
+    /// Throws HostError, which calls it `what`, when `folder` is not a readable folder now.
+    explicit FolderCard(std::string folder, std::string_view what = "the SD card");
 
     /// Files first, then folders, each by name (byte order).
     bool list(std::string_view folder, std::vector<printer::CardEntry>& out) const override;

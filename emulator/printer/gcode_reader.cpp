@@ -12,6 +12,7 @@ void GcodeReader::open(const Volume& volume, std::string path, std::uint64_t fro
     path_ = std::move(path);
     buffer_.resize(piece_bytes);
     // From the byte before: if it is a line's end, the place is the beginning of a line.
+    from_ = from;
     base_ = from == 0 ? 0 : from - 1;
     at_ = size_ = 0;
     at_end_ = false;

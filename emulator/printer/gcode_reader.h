@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -32,8 +33,8 @@ class GcodeReader {
     /// The next line, without its end (CR, LF or both). It is good until the next call.
     Result next(std::string_view& line);
 
-    /// Where the line after the last one begins.
-    std::uint64_t byte() const { return base_ + at_; }
+    /// Where the line after the last one begins; before the first one, where it was opened.
+    std::uint64_t byte() const { return std::max(from_, base_ + at_); }
     std::uint64_t lines_cut() const { return lines_cut_; }
 
   private:
@@ -43,6 +44,7 @@ class GcodeReader {
     const Volume* volume_ = nullptr;
     std::string path_;
     std::vector<char> buffer_;
+    std::uint64_t from_ = 0;
     std::uint64_t base_ = 0;  ///< of the buffer's first byte
     std::size_t at_ = 0;      ///< of the next line in the buffer
     std::size_t size_ = 0;    ///< bytes in the buffer

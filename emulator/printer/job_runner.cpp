@@ -10,7 +10,7 @@
 namespace fauxboard::printer {
 namespace {
 
-/// Read in one go before the board has to get its breath back, and for how long.
+/// Read in so long a time at most; what is more has to wait until it is over.
 constexpr std::uint64_t breath_bytes = 4096;
 constexpr SimTime breath{10'000};
 /// End of a file in which slicers leave what they know only then (PrusaSlicer's settings alone are 20 KiB).
@@ -74,6 +74,7 @@ void JobRunner::resume(SimTime now) {
 
 void JobRunner::seek() {
     held_ = ended_ = false;
+    enough_byte_ = printer_.job.place() + breath_bytes;
     const Volume* volume = printer_.storage.volume(printer_.job.volume());
     reader_.close();
     if (volume != nullptr) {
@@ -130,12 +131,15 @@ void JobRunner::advance(SimTime now) {
     if (scout_.is_open()) {
         scout(scout_bytes);
     }
-    const std::uint64_t enough = reader_.byte() + breath_bytes;
+    if (now >= breath_end_) {
+        breath_end_ = now + breath;
+        enough_byte_ = reader_.byte() + breath_bytes;
+    }
     // Each round carries out a line or a part of an arc, or ends the loop.
     const bool open = reader_.is_open();
     while (reading() && wake_ <= now && piece()) {
-        if (reader_.byte() >= enough) {
-            wake_ = now + breath;
+        if (reader_.byte() >= enough_byte_) {
+            wake_ = std::max(wake_, breath_end_);
         }
     }
     if (open && printer_.job.active()) {
@@ -174,7 +178,7 @@ bool JobRunner::fetch() {
         return false;
     }
     std::string_view text;
-    line_byte_ = reader_.byte();
+    line_byte_ = std::min(reader_.byte(), printer_.job.bytes());  // the file may have grown meanwhile
     switch (reader_.next(text)) {
         case GcodeReader::Result::line:
             break;

@@ -25,8 +25,8 @@ struct JobCounts {
 /// machine, and keeps the Job's place, layers and end.
 ///
 /// It runs in virtual time and does nothing between events: it goes on when a block of the planner ends, a
-/// procedure or a wait is over. A line costs no time, but after each piece of 4 KiB without a rest it waits
-/// 10 ms (400 KB/s, what such boards read from a card), so that no file can hold the board up.
+/// procedure or a wait is over. A line costs no time, but in 10 ms no more than 4 KiB are read, and the line in
+/// which they end (400 KB/s, what such boards read from a card), so that no file can hold the board up.
 class JobRunner {
   public:
     explicit JobRunner(Printer& printer) : printer_(printer) {}
@@ -77,6 +77,8 @@ class JobRunner {
     bool ended_ = false;           ///< the file is at its end; the moves are not
     SimTime now_{0};
     SimTime wake_{0};        ///< not to go on before
+    SimTime breath_end_{0};  ///< of the 10 ms in which no more is read than up to enough_byte_
+    std::uint64_t enough_byte_ = 0;
     SimTime close_ = never;  ///< when the finished job is no longer shown
     double unit_ = 1;        ///< mm: G20, G21
     double feed_mm_s_ = 25;

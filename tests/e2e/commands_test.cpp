@@ -23,6 +23,7 @@ TEST_CASE("each mistake has its exit code and its sentence, and says nothing on 
         {{"run", "--profile", "/missing.json"}, bad_input, "/missing.json"},
         {{"run", "--profile", "/etc/passwd"}, bad_input, "not JSON"},
         {{"run", "--sd", "/missing"}, bad_input, "cannot be the SD card"},
+        {{"run", "--udisk", "/tmp"}, bad_input, "\"udisk_port\": true"},
         {{"run", "--eeprom", "/missing/eeprom"}, bad_input, "cannot be written"},
         {{"run", "--record", "/missing/talk"}, bad_input, "cannot be written"},
         {{"run", "--port", "/dev/ttyMISSING"}, no_port, "/dev/ttyMISSING"},

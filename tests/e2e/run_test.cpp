@@ -207,6 +207,11 @@ TEST_CASE("a recording holds the whole talk") {
         CHECK(lines[i].t >= lines[i - 1].t);
 }
 
+void write(const std::string& file, std::string_view text) {
+    std::ofstream(file + ".tmp") << text;
+    fs::rename(file + ".tmp", file);
+}
+
 TEST_CASE("a folder is the SD card") {
     const TemporaryFolder folder;
     fs::create_directory(folder.file("sub"));
@@ -217,9 +222,26 @@ TEST_CASE("a folder is the SD card") {
     CHECK(contains(live.peer.lines().next(), "L7 P1 sub"));
 }
 
-void write(const std::string& file, std::string_view text) {
-    std::ofstream(file + ".tmp") << text;
-    fs::rename(file + ".tmp", file);
+TEST_CASE("another folder is the U-disk, where the board has a port for one") {
+    const TemporaryFolder folder;
+    fs::create_directory(folder.file("card"));
+    fs::create_directory(folder.file("stick"));
+    std::ofstream(folder.file("card/cube.gcode")) << "G28\n";
+    std::ofstream(folder.file("stick/vase.gcode")) << "G28\n";
+    const std::string profile = folder.file("mine.json");
+    write(profile, R"({"name": "mine", "extends": "geeetech-a30t", "machine": {"udisk_port": true}})");
+    Live live({"--profile", profile, "--sd", folder.file("card"), "--udisk", folder.file("stick")});
+    live.peer.say(frame("M2115 S1"));
+    CHECK(contains(live.peer.ask("M20 LCD", "begin file list"), "L7"));
+    CHECK(contains(live.peer.lines().next(), "L7 P0 vase.gcode"));
+    CHECK(contains(live.peer.lines().next(), "L7 end"));
+    live.peer.say(frame("M2115 S0"));
+    CHECK(contains(live.peer.ask("M20 LCD", "begin file list"), "L7"));
+    CHECK(contains(live.peer.lines().next(), "L7 P0 cube.gcode"));
+    CHECK(live.program.stop() == 0);
+    const Result missing = run({"run", "--profile", profile, "--udisk", folder.file("missing")});
+    CHECK(missing.code == 3);
+    CHECK(contains(missing.errors, "cannot be the U-disk"));
 }
 
 TEST_CASE("a changed profile is taken over while it runs; a wrong one is told of and left alone") {

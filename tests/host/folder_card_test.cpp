@@ -5,6 +5,8 @@
 #include <sys/un.h>
 
 #include <fstream>
+#include <limits>
+#include <optional>
 
 #include "emulator/host/host_error.h"
 #include "tests/link/helpers.h"
@@ -41,6 +43,22 @@ struct Card {
         std::uint64_t bytes = 0;
         return FolderCard(root).look(path, bytes);
     }
+    /// What is read from `offset` on, at most `most` bytes; "(none)" when there is no such file.
+    std::string read(std::string_view path, std::uint64_t offset = 0, std::size_t most = 64) const {
+        std::string bytes(most, '?');
+        const auto got = card().read(path, offset, bytes);
+        return got ? bytes.substr(0, *got) : "(none)";
+    }
+    /// The card the tests of reading share: it was there before what is done to the folder.
+    const FolderCard& card() const {
+        if (!card_) {
+            card_.emplace(root);
+        }
+        return *card_;
+    }
+
+  private:
+    mutable std::optional<FolderCard> card_;
 };
 
 using Names = std::vector<std::string>;
@@ -153,6 +171,85 @@ TEST_CASE_FIXTURE(Card, "a folder that vanishes is an empty card, and may come b
     CHECK(entries.size() == 1);
 }
 
+TEST_CASE_FIXTURE(Card, "a file is read from anywhere, as much as there is room for or left") {
+    folder("sub");
+    file("a.gcode", std::string("G28\0G1\n", 7));
+    file("sub/b.gcode", "inner");
+    file("empty.gcode", "");
+    CHECK(read("a.gcode") == std::string("G28\0G1\n", 7));
+    CHECK(read("a.gcode", 4, 2) == "G1");
+    CHECK(read("a.gcode", 6) == "\n");
+    CHECK(read("a.gcode", 2, 0).empty());
+    CHECK(read("sub/b.gcode", 1) == "nner");
+    CHECK(read("empty.gcode").empty());
+}
+
+TEST_CASE_FIXTURE(Card, "beyond the end of a file there is nothing, however far") {
+    file("a.gcode", "12345");
+    constexpr auto farthest = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
+    for (const std::uint64_t offset : {5ULL, 6ULL, 1ULL << 32U, 1ULL << 40U}) {
+        CAPTURE(offset);
+        CHECK(read("a.gcode", offset).empty());
+    }
+    // What no file can hold is either the end or a refusal, never bytes.
+    for (const std::uint64_t offset : {farthest - 1, farthest, farthest + 1, ~std::uint64_t{0}}) {
+        CAPTURE(offset);
+        const std::string bytes = read("a.gcode", offset);
+        CHECK((bytes.empty() || bytes == "(none)"));
+    }
+    CHECK(read("a.gcode", farthest + 1) == "(none)");
+    CHECK(read("a.gcode", 3) == "45");  // and all is well after that
+}
+
+TEST_CASE_FIXTURE(Card, "a file that vanishes, shrinks or grows while it is read") {
+    file("a.gcode", "12345");
+    CHECK(read("a.gcode", 0, 2) == "12");
+    file("a.gcode", "123");
+    CHECK(read("a.gcode", 2) == "3");
+    CHECK(read("a.gcode", 4).empty());
+    file("a.gcode", "12345678");
+    CHECK(read("a.gcode", 4) == "5678");
+    fs::remove(root + "/a.gcode");
+    CHECK(read("a.gcode", 4) == "(none)");
+    file("a.gcode", "back");
+    CHECK(read("a.gcode") == "back");
+    fs::remove_all(root);
+    CHECK(read("a.gcode") == "(none)");
+}
+
+TEST_CASE_FIXTURE(Card, "what takes a file's place and is no file is not read, and does not hang") {
+    std::ofstream(outside.file("secret")) << "secret";
+    fs::create_directory(outside.file("elsewhere"));
+    std::ofstream(outside.file("elsewhere/a.gcode")) << "secret";
+    folder("sub");
+    file("a.gcode", "mine");
+    file("sub/a.gcode", "mine");
+    CHECK(read("a.gcode") == "mine");
+    CHECK(read("sub/a.gcode") == "mine");
+
+    fs::remove(root + "/a.gcode");
+    fs::create_symlink(outside.file("secret"), root + "/a.gcode");
+    CHECK(read("a.gcode") == "(none)");
+    fs::remove(root + "/a.gcode");
+    REQUIRE(::mkfifo((root + "/a.gcode").c_str(), 0600) == 0);
+    CHECK(read("a.gcode") == "(none)");
+    fs::remove(root + "/a.gcode");
+    folder("a.gcode");
+    CHECK(read("a.gcode") == "(none)");
+    fs::remove_all(root + "/sub");
+    fs::create_symlink(outside.file("elsewhere"), root + "/sub");
+    CHECK(read("sub/a.gcode") == "(none)");
+}
+
+TEST_CASE_FIXTURE(Card, "paths that lead nowhere are not read") {
+    std::ofstream(outside.file("secret")) << "secret";
+    folder("sub");
+    for (const char* path : {"", "..", "../secret", "sub", "sub/../../secret", "/etc/passwd", "a\tb"}) {
+        CAPTURE(std::string(path));
+        CHECK(read(path) == "(none)");
+    }
+}
+
 TEST_CASE_FIXTURE(Card, "a file that may not be read is seen but unreadable") {
     file("locked.gcode");
     fs::permissions(root + "/locked.gcode", fs::perms::none);
@@ -161,6 +258,7 @@ TEST_CASE_FIXTURE(Card, "a file that may not be read is seen but unreadable") {
         return;
     }
     CHECK(look("locked.gcode") == Kind::unreadable);
+    CHECK(read("locked.gcode") == "(none)");
     CHECK(list() == Names{"locked.gcode:1"});
 }
 

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -91,6 +92,20 @@ TEST_CASE("reader: byte() is where the next line begins") {
     for (const std::uint64_t byte : {4U, 9U, 14U}) {
         REQUIRE(reader.next(line) == Result::line);
         CHECK(reader.byte() == byte);
+    }
+}
+
+TEST_CASE("reader: byte() is the place it was opened at until the first line is read") {
+    MemoryDisk disk;
+    disk.put("x", "one\ntwo\nthree\n");
+    for (const std::uint64_t from : {0U, 1U, 4U, 6U, 14U}) {
+        CAPTURE(from);
+        GcodeReader reader;
+        reader.open(disk, "x", from);
+        CHECK(reader.byte() == from);
+        std::string_view line;
+        reader.next(line);
+        CHECK(reader.byte() > std::min<std::uint64_t>(from, 13));
     }
 }
 

@@ -295,6 +295,47 @@ TEST_CASE("job: no step of the machine reads more than a few thousand bytes") {
     }
 }
 
+TEST_CASE("job: however fast the moves between them, no more than 4 KiB are read in 10 ms") {
+    std::string text = "M205 X1000000\nM203 X1000000\nM201 X1000000\nM204 S1000000\nG0 F99999999\n";
+    for (int i = 0; i < 1000; ++i) {
+        text += (i % 2 == 0 ? "G1 X3\n" : "G1 X0\n") + std::string(180, '\n');
+    }
+    Machine machine(text);
+    for (std::uint64_t before = 0; machine.printer.job.status() == JobStatus::printing;) {
+        machine.run_until(to_seconds(machine.printer.now()) + 0.01);
+        const std::uint64_t lines = machine.printer.runner.counts().lines;
+        REQUIRE(lines - before <= 2 * 4096 + 2);  // two such times may begin in these 10 ms
+        before = lines;
+    }
+    CHECK(machine.printer.runner.counts().moves == 1001);
+}
+
+TEST_CASE("job: a dwell lasts as long as it says, wherever it stands in the file") {
+    for (const std::size_t before : {0U, 4080U, 4090U, 4095U, 4096U, 5000U}) {
+        CAPTURE(before);
+        CHECK(moves_of(std::string(before, '\n') + "G4 S20\n") == doctest::Approx(20).epsilon(0.002));
+    }
+}
+
+TEST_CASE("job: paused again and again while the head is still on its way back, it keeps its place") {
+    Machine machine("G91\nG1 X10 F3000\nG4 S1000\nG4 S5\n");
+    machine.run_until(10);
+    const std::uint64_t place = machine.printer.job.place();
+    double now = 10;
+    for (int i = 0; i < 40; ++i) {
+        machine.printer.pause_job();
+        machine.run_until(now += 30);
+        REQUIRE(machine.printer.job.status() == JobStatus::paused);
+        machine.printer.start_or_resume_job();
+        machine.run_until(now += 0.1);
+        REQUIRE(machine.printer.motion.busy());
+        CHECK(machine.printer.job.place() == place);
+    }
+    machine.finish();
+    CHECK(machine.printer.runner.counts().moves == 1);
+    CHECK(machine.position(Axis::x) == 10);
+}
+
 TEST_CASE("job: progress never goes back, and layers come in their order") {
     SlicedFile wishes;
     wishes.moves = 2'000;
