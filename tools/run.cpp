@@ -73,6 +73,7 @@ class Run {
     }
     void set_up();
     std::unique_ptr<link::Link> make_link();
+    std::unique_ptr<link::Link> make_host_link();
     void open_control();
     void say_ready();
     void say(board::Level level, std::string_view text);
@@ -94,6 +95,7 @@ class Run {
     std::unique_ptr<host::Clock> clock_;
     std::unique_ptr<link::Link> wire_;  ///< the line as it is
     std::optional<host::FaultyLink> link_;
+    std::unique_ptr<link::Link> host_link_;  ///< the board's USB port
     std::optional<board::Board> board_;
     std::optional<host::LiveBoard> live_;
     std::optional<LineFaults> faults_;
@@ -115,6 +117,17 @@ std::unique_ptr<link::Link> Run::make_link() {
         return link::make_port_link(loop_, port, options_.baud != 0 ? options_.baud : profile_->line.baud);
     }
     return link::make_pty_link(loop_, options_.pty_name);
+}
+
+std::unique_ptr<link::Link> Run::make_host_link() {
+    const HostLine& line = options_.host;
+    if (!line.tcp.empty()) {
+        return link::make_tcp_listen_link(loop_, line.tcp);
+    }
+    if (!line.port.empty()) {
+        return link::make_port_link(loop_, line.port, line.baud);
+    }
+    return link::make_pty_link(loop_, line.pty_name);
 }
 
 void Run::set_up() {
@@ -170,6 +183,12 @@ void Run::say_ready() {
     if (!options_.pty_name.empty()) {
         ready["name"] = options_.pty_name;
     }
+    if (host_link_) {
+        ready["host"] = {{"link", host_link_->kind()}, {"path", host_link_->path()}};
+        if (!options_.host.pty_name.empty()) {
+            ready["host"]["name"] = options_.host.pty_name;
+        }
+    }
     if (control_) {
         ready["control"] = options_.control;
     }
@@ -179,8 +198,9 @@ void Run::say_ready() {
     }
     err_.write(
         fmt::format("This is fauxboard, an emulator: there is no real printer here.\n"
-                    "{} on {}. Ctrl-C ends it.\n",
-                    profile_->title.empty() ? profile_->name : profile_->title, link_->describe()));
+                    "{} on {}{}. Ctrl-C ends it.\n",
+                    profile_->title.empty() ? profile_->name : profile_->title, link_->describe(),
+                    host_link_ ? ", its USB port on " + host_link_->describe() : std::string()));
 }
 
 void Run::reload() {
@@ -224,6 +244,10 @@ void Run::operator()() {
     });
     open_control();
     link_->open(*live_);
+    if (options_.host.wanted()) {
+        host_link_ = make_host_link();
+        host_link_->open(live_->attach(board::Channel::host, *host_link_));
+    }
     say_ready();
     if (options_.reload) {
         watch_.watch(profile_->files);
@@ -239,6 +263,9 @@ void Run::operator()() {
         control_->close();
     }
     link_->close();
+    if (host_link_) {
+        host_link_->close();
+    }
     log_.finish(live_->now());
     say_summary();
 }

@@ -42,7 +42,17 @@ constexpr std::array<EventInfo, event_count> table{{
      "the file being printed is gone or cannot be read; the job pauses and resuming tries again"},
     {EventId::job_message, "job.message", "the file being printed has a message (M117): job.message"},
     {EventId::job_waits_for_user, "job.waits_for_user",
-     "the file being printed waits for the user (M0, M1, M600); resuming goes on"},
+     "the file being printed, or the USB side, waits for the user (M0, M1, M600); resuming goes on"},
+    {EventId::host_done, "host.done",
+     "a command of the USB side is over, and nothing of its own has acknowledged it"},
+    {EventId::host_busy, "host.busy",
+     "the USB side has been waiting for its command for machine.host.busy_s"},
+    {EventId::host_unknown, "host.unknown", "the USB side sent a command that nobody knows: host.command"},
+    {EventId::host_wrong_number, "host.wrong_number",
+     "a line of the USB side has not the number after host.last_line"},
+    {EventId::host_wrong_checksum, "host.wrong_checksum", "a line of the USB side has a wrong checksum"},
+    {EventId::host_no_checksum, "host.no_checksum", "a numbered line of the USB side has no checksum"},
+    {EventId::host_no_number, "host.no_number", "a line of the USB side has a checksum and no number"},
 }};
 
 consteval bool ordered() {

@@ -17,6 +17,7 @@ Printer::Printer(std::shared_ptr<const MachineConfig> config, Services services,
       motion(config->motion, settings),
       feeder(config->filament),
       runner(*this),
+      host(*this),
       config_(std::move(config)),
       services_(services),
       random_state_(seed ^ 0x9E3779B97F4A7C15ULL) {
@@ -46,6 +47,8 @@ void Printer::power_on(SimTime now) {
     storage.choose(0);
     job.power_on();
     runner.power_on();
+    modal = {};
+    host.power_on();
     screen = ScreenSide{};
     wifi = Wifi{};
     steppers = Steppers{};
@@ -68,6 +71,7 @@ void Printer::advance(SimTime now) {
             events.raise(EventId::card_missing);
         }
         runner.advance(next);
+        host.advance(next);
         motion.start_stream(next);
         if (was_moving) {
             emit_after_motion();
@@ -78,8 +82,8 @@ void Printer::advance(SimTime now) {
 }
 
 SimTime Printer::next_event() const {
-    return std::min(
-        {motion.next_event(), feeder.next_event(), wait.next_event(), runner.next_event(), card_check_});
+    return std::min({motion.next_event(), feeder.next_event(), wait.next_event(), runner.next_event(),
+                     host.next_event(), card_check_});
 }
 
 bool Printer::restless() const {
@@ -204,6 +208,11 @@ void Printer::select_file(std::string_view name) {
 }
 
 bool Printer::start_or_resume_job() {
+    if (job.waits_for_user && !job.active()) {  // an M0 of the USB side
+        job.waits_for_user = false;
+        events.raise(EventId::job_resumed);
+        return true;
+    }
     if (job.resume(now_)) {
         runner.resume(now_);
         events.raise(EventId::job_resumed);
