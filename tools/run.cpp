@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "emulator/fault/printer_fault.h"
 #include "emulator/host/clock.h"
 #include "emulator/host/control_server.h"
 #include "emulator/host/eeprom_file.h"
@@ -160,8 +161,15 @@ void Run::set_up() {
     board_.emplace(profile_, services, options);
     wire_ = make_link();
     link_.emplace(*wire_, *clock_, fault::Direction::to_board);
-    for (const std::string& spec : options_.faults) {
-        link_->add(fault::fault_from_text(spec));
+    for (const std::string& text : options_.faults) {
+        const fault::FaultSpec spec = fault::fault_from_text(text);
+        if (!fault::is_for_printer(spec)) {
+            link_->add(spec);
+        } else if (board_->machine().breakdowns.add(SimTime{0}, fault::to_request(spec)) == 0) {
+            throw fault::FaultSpecError(
+                {fmt::format("fault \"{}\": too many faults of the printer; at most {}", text,
+                             printer::Breakdowns::most)});
+        }
     }
     live_.emplace(*board_, *link_, *clock_, &observers_);
 }
@@ -232,6 +240,9 @@ void Run::say_summary() {
         l.bytes_in, l.bytes_out, l.bytes_lost));
     for (const fault::FaultStatus& status : link_->list()) {
         err_.write(host::fault_sentence(status) + "\n");
+    }
+    for (const printer::Breakdown& breakdown : board_->machine().breakdowns.list()) {
+        err_.write(fault::breakdown_sentence(breakdown) + "\n");
     }
 }
 

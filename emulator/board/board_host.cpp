@@ -49,10 +49,10 @@ void Board::take_host_line(std::string_view line) {
     const bool blank = framed.body.empty() && !framed.numbered;
     const bool urgent = fault == HostLineFault::none && !blank && is_urgent(*profile_, framed.body);
     Verdict verdict = Verdict::accepted;
-    if (fault != HostLineFault::none) {
+    if (fault != HostLineFault::none && !machine_.hung()) {
         ++counters_.bad_frames;
         verdict = Verdict::bad_frame;
-    } else if (!blank && !urgent && !host_inbox_.push(framed.body)) {
+    } else if (machine_.hung() || (!blank && !urgent && !host_inbox_.push(framed.body))) {
         // Its number does not count as taken, so a host that numbers its lines is asked for it again.
         ++counters_.requests_lost;
         verdict = Verdict::queue_full;
@@ -85,7 +85,7 @@ void Board::take_host_line(std::string_view line) {
 /// Ends the command that is over, begins the next that may begin, and so on.
 void Board::run_host() {
     printer::HostCommands& host = machine_.host;
-    while (port(Channel::host).output.size() < host_output_limit) {
+    while (!machine_.hung() && port(Channel::host).output.size() < host_output_limit) {
         if (host.running()) {
             if (host.under_way()) {
                 return;
