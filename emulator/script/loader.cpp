@@ -55,25 +55,16 @@ class Parameters {
     template <class Report>
     void give(const Values& given, Report&& report) {
         for (const auto& [name, value] : given) {
-            if (values_.contains(name) || missing_.contains(name)) {
+            if (values_.contains(name)) {
                 values_[name] = value;
-                missing_.erase(name);
                 continue;
             }
             std::vector<std::string_view> names;
             for (const auto& [known, fallback] : values_)
                 names.push_back(known);
-            for (const std::string& known : missing_)
-                names.push_back(known);
             report(fmt::format("the scenario has no parameter \"{}\"{}", name,
                                names.empty() ? ", nor any other" : ""),
                    std::string(behaviour::nearest(name, names)));
-        }
-    }
-    template <class Report>
-    void check_missing(Report&& report) {
-        for (const std::string& name : missing_) {
-            report(name);
         }
     }
     Json fill(const Json& node) {
@@ -82,7 +73,7 @@ class Parameters {
             [this](std::string_view name) -> std::optional<Json> {
                 const auto hit = values_.find(name);
                 if (hit == values_.end()) {
-                    return missing_.contains(name) ? std::optional<Json>("1") : std::nullopt;
+                    return std::nullopt;
                 }
                 used_.emplace(name);
                 return hit->second;
@@ -115,22 +106,23 @@ class Parameters {
         ObjectReader reader(spec, at, findings_);
         std::string help;
         reader.required("help");
+        reader.required("default");
         reader.text("help", help, 500);
         const Json* fallback = reader.get("default");
         reader.finish();
+        values_[name] = "1";
         if (fallback == nullptr) {
-            missing_.insert(name);
-        } else if (is_scalar(*fallback)) {
+            return;
+        }
+        if (is_scalar(*fallback)) {
             values_[name] = *fallback;
         } else {
             findings_.add(at + "/default", found(*fallback) + "; expected a text, a number, true or false");
-            values_[name] = "1";
         }
     }
 
     Findings& findings_;
     Values values_;
-    std::set<std::string, std::less<>> missing_;
     std::set<std::string, std::less<>> used_;
 };
 
@@ -226,11 +218,6 @@ void Loader::main_file(const behaviour::SourceText& source, const Arguments& arg
         problem.nearest = std::move(nearest);
         findings.problems.push_back(std::move(problem));
     });
-    parameters.check_missing([&](const std::string& name) {
-        findings.add("/parameters/" + name,
-                     fmt::format("the parameter \"{}\" has no default; give it a value with --param {}=...",
-                                 name, name));
-    });
     open_.push_back(source.name);
     out_.files.push_back(source.name);
     out_.main.steps = body(parameters, findings, document, true);
@@ -279,11 +266,6 @@ Block Loader::include(const std::string& name, const std::string& from, const Js
         }
         parameters.give(given, [&](std::string message, std::string nearest) {
             findings.add(pointer, std::move(message), std::move(nearest));
-        });
-        parameters.check_missing([&](const std::string& missing) {
-            findings.add(pointer,
-                         fmt::format("\"{}\" needs a value for its parameter \"{}\"; give it under \"with\"",
-                                     name, missing));
         });
         open_.push_back(source->name);
         out_.files.push_back(source->name);

@@ -15,7 +15,7 @@ struct Head {
     std::string title;
     std::string profile;  ///< empty: it does not say
     std::string screen;   ///< empty: none in this process
-    /// What it can be told, for lists: name, default as JSON ("" when it must be given), help.
+    /// What it can be told, for lists: name, default as JSON, help.
     struct Parameter {
         std::string name;
         std::string fallback;
