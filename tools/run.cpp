@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "emulator/fault/printer_fault.h"
 #include "emulator/host/clock.h"
 #include "emulator/host/control_server.h"
 #include "emulator/host/eeprom_file.h"
@@ -157,8 +158,15 @@ void Run::set_up() {
     board_.emplace(profile_, services, options);
     link_.emplace(make_wire(), *clock_, fault::Direction::to_board);
     faults_.emplace(*link_);
-    for (const std::string& spec : options_.faults) {
-        link_->add(fault::fault_from_text(spec));
+    for (const std::string& text : options_.faults) {
+        const fault::FaultSpec spec = fault::fault_from_text(text);
+        if (!fault::is_for_printer(spec)) {
+            link_->add(spec);
+        } else if (board_->machine().breakdowns.add(SimTime{0}, fault::to_request(spec)) == 0) {
+            throw fault::FaultSpecError(
+                {fmt::format("fault \"{}\": too many faults of the printer; at most {}", text,
+                             printer::Breakdowns::most)});
+        }
     }
     live_.emplace(*board_, *link_, *clock_, &observers_);
 }
@@ -213,6 +221,9 @@ ExitCode Run::outcome() {
     for (const fault::FaultStatus& status : link_->list()) {
         faults.push_back(fault::status_to_json(status));
     }
+    for (const printer::Breakdown& breakdown : board_->machine().breakdowns.list()) {
+        faults.push_back(fault::breakdown_to_json(breakdown));
+    }
     return tell_outcome(options_, script_->player(), *board_, faults, out_, err_);
 }
 
@@ -264,6 +275,9 @@ void Run::say_summary() {
         l.bytes_in, l.bytes_out, l.bytes_lost));
     for (const fault::FaultStatus& status : link_->list()) {
         err_.write(host::fault_sentence(status) + "\n");
+    }
+    for (const printer::Breakdown& breakdown : board_->machine().breakdowns.list()) {
+        err_.write(fault::breakdown_sentence(breakdown) + "\n");
     }
 }
 

@@ -122,9 +122,10 @@ void declare_run_options(CLI::App& command, RunOptions& options) {
     declare_time(command, options);
     declare_talk(command, options);
     command
-        .add_option(
-            "--fault", options.faults,
-            "Make the line misbehave: drop:to_screen,every=5 (see `describe faults`); may be repeated")
+        .add_option("--fault", options.faults,
+                    "Make the line misbehave, or break the printer: drop:to_screen,every=5, jam:at=60s (see "
+                    "`describe "
+                    "faults`); may be repeated")
         ->type_name("SPEC")
         ->expected(1)
         ->take_all();

@@ -124,13 +124,19 @@ void Board::receive_host(SimTime now, std::string_view bytes) {
 
 void Board::take_line(Channel channel, std::string_view line) {
     ++counters_.lines_received;
+    if (channel == Channel::host) {
+        machine_.hear_host(time_);
+    }
     const protocol::ChecksumPolicy policy =
         channel == Channel::screen ? profile_->line.checksum : protocol::ChecksumPolicy::if_present;
     const protocol::Unframed unframed = protocol::unframe(line, policy);
     Verdict verdict = Verdict::accepted;
     const bool waits = options_.pacing ? is_code(unframed.body) : output_.size() >= output_limit;
     const bool at_once = channel == Channel::host || !waits;
-    if (unframed.fault != protocol::FrameFault::none) {
+    if (machine_.hung()) {
+        ++counters_.requests_lost;
+        verdict = Verdict::queue_full;
+    } else if (unframed.fault != protocol::FrameFault::none) {
         ++counters_.bad_frames;
         verdict = Verdict::bad_frame;
     } else if (!at_once && !inbox_.push(unframed.body)) {
@@ -201,6 +207,10 @@ void Board::settle() {
     if (!machine_.events.empty()) {
         run_events();
     }
+    if (machine_.take_reset()) {
+        power_on(time_);
+        return;
+    }
     if (const int rounds = machine_.motion.take_lost_rounds(); rounds > 0) {
         wheel_.lose_rounds(rounds);
     }
@@ -231,7 +241,7 @@ void Board::run_events() {
 }
 
 void Board::send(const Send& entry, const Scope& here) {
-    if (!behaviour::all_hold(entry.when, here)) {
+    if (machine_.hung() || !behaviour::all_hold(entry.when, here)) {
         return;
     }
     const Frame& frame = profile_->frames[entry.frame];
@@ -322,6 +332,9 @@ SimTime Board::next_tick() const {
 }
 
 SimTime Board::next_due() const {
+    if (machine_.hung()) {
+        return machine_.next_event();
+    }
     const SimTime wheel =
         wheel_.next_slot() <= time_ ? wheel_.next_slot() : wheel_.next_due(scope(), machine_.restless());
     return std::min({machine_.next_event(), next_tick(), wheel});
@@ -329,13 +342,16 @@ SimTime Board::next_due() const {
 
 /// A time before which nothing is due, found without asking which of the wheel's slots may send.
 SimTime Board::nothing_before() const {
+    if (machine_.hung()) {
+        return machine_.next_event();
+    }
     return std::min({machine_.next_event(), next_tick(), wheel_.next_slot()});
 }
 
 /// Goes through the slots before `end`. Those passed over because nothing could come of them are among them,
 /// for their rounds to count.
 void Board::run_slots(SimTime end) {
-    while (wheel_.next_slot() < end && output_.size() < output_limit) {
+    while (!machine_.hung() && wheel_.next_slot() < end && output_.size() < output_limit) {
         const behaviour::Slot* slot = wheel_.turn(scope());
         if (slot != nullptr) {
             Send entry;
@@ -378,7 +394,7 @@ void Board::step(SimTime due) {
     machine_.advance(time_);
     settle();
     run_slots(time_ + SimTime{1});
-    if (next_tick() <= time_) {
+    if (!machine_.hung() && next_tick() <= time_) {
         run_tick();
     }
 }

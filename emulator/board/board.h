@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <set>
 #include <span>
@@ -61,7 +62,7 @@ struct Counters {
     std::uint64_t bad_frames = 0;  ///< wrong, missing or malformed checksum where one was needed
     std::uint64_t unknown_codes = 0;
     std::uint64_t unmatched = 0;      ///< known code, but no rule for its parameters
-    std::uint64_t requests_lost = 0;  ///< more waiting than the board has room for
+    std::uint64_t requests_lost = 0;  ///< more waiting than the board has room for; or it hung
     std::uint64_t messages_lost = 0;  ///< same, outwards
     std::uint64_t lines_cut = 0;      ///< frames longer than a line may be
 };
@@ -94,6 +95,8 @@ class Board final : private behaviour::NoticeSink {
     /// Carries out one compiled action, as world() does. What the machine has against it, also told as a
     /// notice; empty when it was done.
     std::string act(SimTime now, const behaviour::ActionCall& call);
+    /// Calls `use` with the machine brought up to now, and sees to what comes of it.
+    void tinker(SimTime now, const std::function<void(printer::Printer& machine)>& use);
     /// Sends one of the profile's frames, as a rule does; it has no request to take parameters from.
     void send_frame(SimTime now, const behaviour::Send& entry);
     /// Puts bytes on the wire to the screen, at once and as they are but for the line end, which is added

@@ -50,6 +50,14 @@ std::string Board::act(SimTime now, const behaviour::ActionCall& call) {
     return watch.refusal;
 }
 
+void Board::tinker(SimTime now, const std::function<void(printer::Printer& machine)>& use) {
+    catch_up(now);
+    machine_.advance(time_);
+    use(machine_);
+    machine_.advance(time_);
+    settle();
+}
+
 void Board::send_frame(SimTime now, const behaviour::Send& entry) {
     refresh(now);
     send(entry, scope());

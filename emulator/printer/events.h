@@ -15,13 +15,18 @@ namespace fauxboard::printer {
 enum class EventId : std::uint8_t {
     motion_homed,
     motion_axis_homed,
+    motion_homing_failed,
     motion_bed_probed,
     motion_probed,
     motion_parked,
     babystep_changed,
+    leveling_probe_alarm,
     heating_wait_started,
     heating_wait_report,
     heating_wait_done,
+    heating_pid_question,
+    heater_nozzle_abnormal,
+    heater_bed_abnormal,
     filament_piece,
     filament_stopped,
     filament_too_cold,
@@ -44,8 +49,10 @@ enum class EventId : std::uint8_t {
     job_closed,
     job_refused,
     job_file_lost,
+    job_file_unreadable,
     job_message,
     job_waits_for_user,
+    power_lost,
     count_  // not an event
 };
 

@@ -221,7 +221,9 @@ void JobRunner::execute() {
 /// The file is gone. The job pauses, so that it can go on when the card is back.
 void JobRunner::lose_file() {
     printer_.pause_job();
-    printer_.events.raise(EventId::job_file_lost);
+    const bool there =
+        printer_.storage.look(printer_.job.volume(), printer_.job.path()) == Volume::Kind::unreadable;
+    printer_.events.raise(there ? EventId::job_file_unreadable : EventId::job_file_lost);
 }
 
 /// Reads some of the file ahead of the job, for its layers only. Ends when a comment told their number, at

@@ -62,6 +62,9 @@ struct FilamentConfig {
     double piece_commit_s = 0.25;  ///< a stop later than this into a piece waits for the piece's end
     int feed_mm_s = 1;             ///< shown as F and FR while loading
     double min_extrude_c = 170;
+    /// A detector that feels the filament move, instead of whether it is there, calls it out after so much
+    /// was extruded and nothing moved; 0: it is a switch, as on the A30T.
+    double detector_mm = 0;
 };
 
 struct Identity {

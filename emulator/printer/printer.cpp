@@ -50,6 +50,8 @@ void Printer::power_on(SimTime now) {
     wifi = Wifi{};
     steppers = Steppers{};
     events.clear();
+    refusing = tuning = hung_ = reset_ = false;
+    host_heard_.reset();
     stall_ = SimTime{0};
     card_check_ = storage.usable(0) ? never : now + card_check_delay;
 }
@@ -59,7 +61,13 @@ void Printer::advance(SimTime now) {
     for (SimTime next = next_event(); next <= now; next = next_event()) {
         now_ = next;
         thermal.advance(next);
+        breakdowns.advance(next);
+        if (hung_) {
+            continue;
+        }
+        raise_alarms();
         const bool was_moving = motion.busy();
+        motion.faults().probe_alarm = leveling.probe_alarm;
         motion.advance(next, events);
         feeder.advance(next, events);
         wait.advance(next, thermal, events);
@@ -69,6 +77,7 @@ void Printer::advance(SimTime now) {
         }
         runner.advance(next);
         motion.start_stream(next);
+        follow_filament();
         if (was_moving) {
             emit_after_motion();
         }
@@ -78,13 +87,16 @@ void Printer::advance(SimTime now) {
 }
 
 SimTime Printer::next_event() const {
-    return std::min(
-        {motion.next_event(), feeder.next_event(), wait.next_event(), runner.next_event(), card_check_});
+    if (hung_) {
+        return breakdowns.next_event();
+    }
+    return std::min({motion.next_event(), feeder.next_event(), wait.next_event(), runner.next_event(),
+                     card_check_, thermal.next_alarm_check(), breakdowns.next_event()});
 }
 
 bool Printer::restless() const {
-    return motion.busy() || feeder.mode() != Feeder::Mode::idle || wait.active() || !thermal.settled() ||
-           job.status() == JobStatus::printing;
+    return !hung_ && (motion.busy() || feeder.mode() != Feeder::Mode::idle || wait.active() ||
+                      !thermal.settled() || job.status() == JobStatus::printing);
 }
 
 void Printer::emit_after_motion() {
@@ -110,6 +122,7 @@ bool Printer::home(unsigned mask) {
 bool Printer::run(std::string_view procedure) {
     const auto& known = config_->motion.procedures;
     const auto hit = known.find(procedure);
+    motion.faults().probe_alarm = leveling.probe_alarm;
     return hit != known.end() && motion.run(hit->second, now_, events);
 }
 
@@ -118,7 +131,7 @@ void Printer::motors_off() {
 }
 
 void Printer::feed(Feeder::Mode mode) {
-    if (thermal.temperature_c(HeaterId::nozzle) < config_->filament.min_extrude_c) {
+    if (too_cold_to_extrude()) {
         events.raise(EventId::filament_too_cold);
         return;
     }
@@ -128,7 +141,7 @@ void Printer::feed(Feeder::Mode mode) {
 }
 
 void Printer::feed_once() {
-    if (thermal.temperature_c(HeaterId::nozzle) < config_->filament.min_extrude_c) {
+    if (too_cold_to_extrude()) {
         events.raise(EventId::filament_too_cold);
         return;
     }
@@ -182,7 +195,7 @@ void Printer::fail_card(int disk) {
 }
 
 void Printer::select_file(std::string_view name) {
-    if (job.active()) {
+    if (job.active() || refusing) {
         events.raise(EventId::job_refused);
         return;
     }
@@ -203,10 +216,21 @@ void Printer::select_file(std::string_view name) {
     }
 }
 
+bool Printer::resume_job() {
+    if (!job.resume(now_)) {
+        return false;
+    }
+    runner.resume(now_);
+    events.raise(EventId::job_resumed);
+    return true;
+}
+
 bool Printer::start_or_resume_job() {
-    if (job.resume(now_)) {
-        runner.resume(now_);
-        events.raise(EventId::job_resumed);
+    if (resume_job()) {
+        return true;
+    }
+    if (refusing && job.selected() && !job.active()) {
+        events.raise(EventId::job_refused);
         return true;
     }
     if (job.start(now_)) {

@@ -120,6 +120,12 @@ void Storage::listing(std::vector<CardEntry>& out, unsigned limit) const {
     }
 }
 
+Volume::Kind Storage::look(int disk, std::string_view path) const {
+    std::uint64_t bytes = 0;
+    const Volume::Kind kind = usable(disk) ? volumes_[index(disk)]->look(path, bytes) : Volume::Kind::missing;
+    return kind == Volume::Kind::file ? file_trouble_ : kind;
+}
+
 Storage::Found Storage::find(std::string_view name) const {
     Found found;
     if (!usable(chosen_)) {
@@ -132,6 +138,7 @@ Storage::Found Storage::find(std::string_view name) const {
             return false;
         }
         found.kind = volume.look(path, found.bytes);
+        found.kind = found.kind == Volume::Kind::file ? file_trouble_ : found.kind;
         found.path = std::move(path);
         return found.kind != Volume::Kind::missing;
     };

@@ -11,6 +11,7 @@
 #include "emulator/script/outcome.h"
 #include "emulator/script/scenario.h"
 #include "emulator/script/stage.h"
+#include "emulator/script/steps.h"
 
 namespace fauxboard::script {
 
@@ -102,7 +103,7 @@ class Player final : public board::Observer {
     std::vector<std::unique_ptr<Branch>> branches_;  ///< in the order in which they were made
     std::deque<Passed> passed_;
     std::deque<Talk> talk_;  ///< the last of it
-    std::map<std::string, fault::FaultId, std::less<>> faults_;
+    std::map<std::string, MadeFault, std::less<>> faults_;
     Captures captures_;
     std::vector<StepResult> results_;
     std::optional<Outcome> outcome_;

@@ -29,10 +29,16 @@ enum class Role : std::uint8_t {
     block,  ///< holds other steps
 };
 
+/// A fault that the scenario has made: one of the line, or one of the printer.
+struct MadeFault {
+    fault::FaultId line = 0;
+    unsigned printer = 0;
+};
+
 /// What an act has at hand.
 struct Acting {
     Stage& stage;
-    std::map<std::string, fault::FaultId, std::less<>>& faults;  ///< those of the scenario, by name
+    std::map<std::string, MadeFault, std::less<>>& faults;  ///< by name
 };
 
 /// One row is the whole declaration of a step.

@@ -6,6 +6,7 @@
 
 #include "emulator/behaviour/nearest.h"
 #include "emulator/behaviour/wire_text.h"
+#include "emulator/fault/printer_fault.h"
 #include "emulator/script/compiler.h"
 #include "protocol/framing.h"
 
@@ -141,6 +142,7 @@ void compile_fault(Compiler& c, const Json& value, ObjectReader& reader, Step& o
             c.findings().add(at, std::move(problem));
         }
     }
+    out.text = out.fault ? std::string(out.fault->kind->name) : std::string{};
     reader.text("as", out.text, 64);
     if (out.text == all_faults) {
         c.findings().add(reader.pointer("as"),
@@ -150,24 +152,44 @@ void compile_fault(Compiler& c, const Json& value, ObjectReader& reader, Step& o
     }
 }
 
+/// False when there is none of it any more.
+bool take_away(Acting& acting, const MadeFault& made) {
+    if (made.printer == 0) {
+        return acting.stage.faults()->remove(made.line);
+    }
+    bool done = false;
+    acting.stage.visit([&](board::Board& board, SimTime now) {
+        board.tinker(now, [&](printer::Printer& p) { done = p.breakdowns.remove(made.printer); });
+    });
+    return done;
+}
+
 std::string run_fault(Acting& acting, const Step& step) {
-    control::FaultControl* faults = acting.stage.faults();
-    if (faults == nullptr) {
+    if (acting.stage.faults() == nullptr) {
         return "the line of this run takes no faults";
     }
-    try {
-        const auto known = acting.faults.find(step.text);
-        if (!step.text.empty() && known != acting.faults.end() &&
-            faults->change(known->second, *step.fault)) {
-            return {};
-        }
-        const fault::FaultId id = faults->add(*step.fault);
-        if (!step.text.empty()) {
-            acting.faults[step.text] = id;
-        }
-    } catch (const fault::FaultSpecError& error) {
-        return error.what();
+    if (const auto known = acting.faults.find(step.text); known != acting.faults.end()) {
+        take_away(acting, known->second);
+        acting.faults.erase(known);
     }
+    MadeFault made;
+    if (fault::is_for_printer(*step.fault)) {
+        acting.stage.visit([&](board::Board& board, SimTime now) {
+            board.tinker(now, [&](printer::Printer& p) {
+                made.printer = p.breakdowns.add(now, fault::to_request(*step.fault));
+            });
+        });
+        if (made.printer == 0) {
+            return "the printer has too many faults already; clear some first";
+        }
+    } else {
+        try {
+            made.line = acting.stage.faults()->add(*step.fault);
+        } catch (const fault::FaultSpecError& error) {
+            return error.what();
+        }
+    }
+    acting.faults[step.text] = made;
     return {};
 }
 
@@ -191,15 +213,17 @@ void compile_clear(Compiler& c, const Json& value, ObjectReader& reader, Step& o
 }
 
 std::string run_clear(Acting& acting, const Step& step) {
-    control::FaultControl* faults = acting.stage.faults();
-    if (faults == nullptr) {
+    if (acting.stage.faults() == nullptr) {
         return "the line of this run takes no faults";
     }
     if (step.text == all_faults) {
-        faults->clear();
+        acting.stage.faults()->clear();
+        acting.stage.visit([](board::Board& board, SimTime now) {
+            board.tinker(now, [](printer::Printer& p) { p.breakdowns.clear(); });
+        });
         acting.faults.clear();
     } else if (const auto hit = acting.faults.find(step.text); hit != acting.faults.end()) {
-        faults->remove(hit->second);
+        take_away(acting, hit->second);
         acting.faults.erase(hit);
     }
     return {};
@@ -268,12 +292,13 @@ constexpr std::array table{
              Role::act,
              compile_press,
              run_press},
-    StepKind{"fault", "fault", "the line misbehaves from now on; see faults",
+    StepKind{"fault", "fault", "the line misbehaves, or the printer breaks, from now on; see faults",
              R"j({"fault": "drop:to_screen,every=3", "as": "lossy"})j", fault_keys, Role::act, compile_fault,
              run_fault},
     StepKind{"clear",
              "name",
-             "that fault of the line is over; \"all\" ends every one",
+             "that fault is over, by the name of its kind or the one given with \"as\"; \"all\" ends every "
+             "one" all\" ends every one",
              R"j({"clear": "lossy"})j",
              {},
              Role::act,
