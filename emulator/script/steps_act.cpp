@@ -247,7 +247,7 @@ std::string run_note(Acting& acting, const Step& step) {
 }
 
 constexpr std::array fault_keys{
-    KeyInfo{"as", "name", "what \"clear\" calls it; a fault of the same name is replaced"}};
+    KeyInfo{"as", "name", "what to call it; left out: its kind. A fault of the same name is replaced"}};
 
 constexpr std::array table{
     StepKind{"do",
