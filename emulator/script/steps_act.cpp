@@ -298,7 +298,7 @@ constexpr std::array table{
     StepKind{"clear",
              "name",
              "that fault is over, by the name of its kind or the one given with \"as\"; \"all\" ends every "
-             "one" all\" ends every one",
+             "one",
              R"j({"clear": "lossy"})j",
              {},
              Role::act,
