@@ -19,7 +19,7 @@ using Verdict = Outcome::Verdict;
 constexpr SimTime look_every = std::chrono::milliseconds(100);
 /// How often limits in real time are looked at, in virtual time.
 constexpr SimTime real_every = std::chrono::seconds(1);
-constexpr SimTime real_grace = std::chrono::minutes(1);
+constexpr SimTime real_grace = std::chrono::minutes(5);
 constexpr std::size_t most_passed = 65'536;
 constexpr std::size_t kept_talk = 40;
 /// Steps that may be done while no time passes: more is a loop.

@@ -67,7 +67,7 @@ void compile_check(Compiler& c, const Json& value, ObjectReader& reader, Step& o
 }
 
 constexpr std::string_view real_help =
-    "the same in real time; left out: the virtual limit at the speed of the run, and a minute more";
+    "the same in real time; left out: the virtual limit at the speed of the run, and five minutes more";
 constexpr std::array wait_keys{
     KeyInfo{"within", "time", "how long at most, of virtual time; left out: the scenario's limits.wait"},
     KeyInfo{"real", "time", real_help}};
