@@ -83,6 +83,7 @@ class Run {
     std::unique_ptr<link::Link> make_link();
     void open_script();
     ExitCode outcome();
+    std::unique_ptr<link::Link> make_host_link();
     void open_control();
     void say_ready();
     void say(board::Level level, std::string_view text);
@@ -107,6 +108,7 @@ class Run {
     std::unique_ptr<link::Link> wire_;  ///< the line as it is, if it leads out of this process
     std::optional<host::ScreenPlug> plug_;
     std::optional<host::FaultyLink> link_;
+    std::unique_ptr<link::Link> host_link_;  ///< the board's USB port
     std::optional<board::Board> board_;
     std::optional<host::LiveBoard> live_;
     std::optional<LineFaults> faults_;
@@ -137,6 +139,17 @@ std::unique_ptr<link::Link> Run::make_link() {
         return link::make_port_link(loop_, port, options_.baud != 0 ? options_.baud : profile_->line.baud);
     }
     return link::make_pty_link(loop_, options_.pty_name);
+}
+
+std::unique_ptr<link::Link> Run::make_host_link() {
+    const HostLine& line = options_.host;
+    if (!line.tcp.empty()) {
+        return link::make_tcp_listen_link(loop_, line.tcp);
+    }
+    if (!line.port.empty()) {
+        return link::make_port_link(loop_, line.port, line.baud);
+    }
+    return link::make_pty_link(loop_, line.pty_name);
 }
 
 void Run::set_up() {
@@ -233,6 +246,12 @@ void Run::say_ready() {
     if (!options_.pty_name.empty()) {
         ready["name"] = options_.pty_name;
     }
+    if (host_link_) {
+        ready["host"] = {{"link", host_link_->kind()}, {"path", host_link_->path()}};
+        if (!options_.host.pty_name.empty()) {
+            ready["host"]["name"] = options_.host.pty_name;
+        }
+    }
     if (control_) {
         ready["control"] = options_.control;
     }
@@ -242,8 +261,9 @@ void Run::say_ready() {
     }
     err_.write(
         fmt::format("This is fauxboard, an emulator: there is no real printer here.\n"
-                    "{} on {}. Ctrl-C ends it.\n",
-                    profile_->title.empty() ? profile_->name : profile_->title, link_->describe()));
+                    "{} on {}{}. Ctrl-C ends it.\n",
+                    profile_->title.empty() ? profile_->name : profile_->title, link_->describe(),
+                    host_link_ ? ", its USB port on " + host_link_->describe() : std::string()));
 }
 
 void Run::reload() {
@@ -296,6 +316,10 @@ ExitCode Run::operator()() {
     open_control();
     open_script();
     link_->open(*live_);
+    if (options_.host.wanted()) {
+        host_link_ = make_host_link();
+        host_link_->open(live_->attach(board::Channel::host, *host_link_));
+    }
     say_ready();
     if (options_.reload && !scenario_) {  // which was checked against this one
         watch_.watch(profile_->files);
@@ -324,6 +348,9 @@ ExitCode Run::operator()() {
     link_->close();
     if (plug_) {
         plug_->close();
+    }
+    if (host_link_) {
+        host_link_->close();
     }
     log_.finish(live_->now());
     say_summary();

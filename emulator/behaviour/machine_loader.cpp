@@ -359,6 +359,11 @@ void load_machine(const Json& node, const std::string& pointer, Findings& findin
         job.number("finished_s", machine.job.finished_s, 0, 86400);
         job.finish();
     }
+    if (const Json* part = reader.get("host")) {
+        ObjectReader host(*part, reader.pointer("host"), findings);
+        host.number("busy_s", machine.host.busy_s, 0, 3600);
+        host.finish();
+    }
     reader.boolean("udisk_port", machine.udisk_port);
     reader.integer("board_fan_percent", machine.board_fan_percent, 0, 100);
     reader.number("manual_level_start_mm", machine.manual_level_start_mm, 0, 500);

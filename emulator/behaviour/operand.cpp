@@ -110,6 +110,8 @@ Value Operand::evaluate_other(const Scope& scope) const {
             return scope.entry != nullptr ? Value::of(std::string_view{scope.entry->name}) : Value{};
         case Kind::entry_index:
             return Value::of(static_cast<double>(scope.index));
+        case Kind::entry_bytes:
+            return scope.entry != nullptr ? Value::of(static_cast<double>(scope.entry->bytes)) : Value{};
         default:
             break;
     }
@@ -156,11 +158,13 @@ Operand parse_reference(std::string_view reference, const Names& names) {
     if (reference.starts_with("var.")) {
         return parse_variable(reference.substr(4), names);
     }
-    if (reference == "entry.name" || reference == "entry.index") {
+    if (reference == "entry.name" || reference == "entry.index" || reference == "entry.bytes") {
         if (!names.loop) {
             throw ExpressionError(quoted(reference) + " is known only inside `for_each`", {});
         }
-        operand.kind = reference == "entry.name" ? Operand::Kind::entry_name : Operand::Kind::entry_index;
+        operand.kind = reference == "entry.name"    ? Operand::Kind::entry_name
+                       : reference == "entry.index" ? Operand::Kind::entry_index
+                                                    : Operand::Kind::entry_bytes;
         return operand;
     }
     if (const auto word = parse_request_word(reference)) {

@@ -28,7 +28,7 @@ struct Scope {
 struct Names {
     std::map<std::string, std::size_t, std::less<>> variables;
     bool request = false;  ///< parameters of a request may be used
-    bool loop = false;     ///< entry.name and entry.index may be used
+    bool loop = false;     ///< entry.name, entry.index and entry.bytes may be used
 };
 
 /// A wrong expression. `what()` says what was found and expected; `nearest` is the known name most like it.
@@ -53,6 +53,7 @@ struct Operand {
         keyed,      ///< {FW:}: the word after "FW:"
         entry_name,
         entry_index,
+        entry_bytes,
     };
     Kind kind = Kind::none;
     char letter = 0;

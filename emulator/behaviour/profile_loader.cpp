@@ -52,10 +52,11 @@ void Loader::load_head(ObjectReader& root) {
     root.text("name", profile_->name, 64);
     root.text("title", profile_->title, 256);
     root.get("extends");  // resolved before
-    constexpr std::array<std::string_view, 1> protocols{"smartto"};
+    constexpr std::array<std::string_view, 2> protocols{"smartto", "gcode"};
     std::size_t protocol = 0;
     root.required("protocol");
     root.choice("protocol", protocols, protocol);
+    profile_->line.framing = static_cast<Framing>(protocol);
     if (const Json* line = root.get("line")) {
         load_line(*line, root.pointer("line"));
     }
@@ -177,6 +178,12 @@ void Loader::load_frame(const Json& node, const std::string& pointer, Frame& fra
     std::size_t style = 0;
     reader.choice("style", styles, style);
     frame.style = static_cast<protocol::FrameStyle>(style);
+    constexpr std::array<std::string_view, channel_count> channels{"main", "host", "network"};
+    std::size_t to = channels.size();
+    reader.choice("to", channels, to);
+    if (to < channels.size()) {
+        frame.to = static_cast<Channel>(to);
+    }
     const Json* text = reader.get("line");
     const Json* lines = reader.get("lines");
     if ((text == nullptr) == (lines == nullptr)) {
@@ -349,9 +356,10 @@ std::shared_ptr<const Profile> Loader::load() {
         profile_->boot = RuleCompiler(findings_, names_, frame_index_, *machine_).sends(n, p);
     });
     section("schedule", [&](const Json& n, const std::string& p) { load_schedule(n, p); });
-    section("requests", [&](const Json& n, const std::string& p) { load_requests(n, p, profile_->screen_); });
+    section("requests",
+            [&](const Json& n, const std::string& p) { load_requests(n, p, profile_->requests); });
     section("host_requests",
-            [&](const Json& n, const std::string& p) { load_requests(n, p, profile_->host_); });
+            [&](const Json& n, const std::string& p) { load_requests(n, p, profile_->host_requests); });
     section("events", [&](const Json& n, const std::string& p) { load_events(n, p); });
     root.finish();
     if (!findings_.problems.empty()) {

@@ -47,6 +47,7 @@ std::string Board::act(SimTime now, const behaviour::ActionCall& call) {
         power_on(time_);
     }
     settle();
+    run_host();
     return watch.refusal;
 }
 

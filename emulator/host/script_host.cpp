@@ -51,8 +51,8 @@ void ScriptHost::on_received(SimTime now, board::Channel channel, std::string_vi
     wake();
 }
 
-void ScriptHost::on_sent(SimTime now, std::string_view line) {
-    player_.on_sent(now, line);
+void ScriptHost::on_sent(SimTime now, board::Channel channel, std::string_view line) {
+    player_.on_sent(now, channel, line);
     wake();
 }
 

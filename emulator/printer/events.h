@@ -52,6 +52,13 @@ enum class EventId : std::uint8_t {
     job_file_unreadable,
     job_message,
     job_waits_for_user,
+    host_done,
+    host_busy,
+    host_unknown,
+    host_wrong_number,
+    host_wrong_checksum,
+    host_no_checksum,
+    host_no_number,
     power_lost,
     count_  // not an event
 };

@@ -91,6 +91,12 @@ struct JobConfig {
     double finished_s = 10;
 };
 
+struct HostConfig {
+    /// A command of the USB side that takes longer than this raises `host.busy`, and again each time; 0:
+    /// never.
+    double busy_s = 2;
+};
+
 struct MachineConfig {
     Identity identity;
     ThermalConfig thermal;
@@ -98,6 +104,7 @@ struct MachineConfig {
     FilamentConfig filament;
     CardConfig card;
     JobConfig job;
+    HostConfig host;
     bool udisk_port = false;
     int board_fan_percent = 50;
     double manual_level_start_mm = 8.0;

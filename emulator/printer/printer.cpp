@@ -17,6 +17,7 @@ Printer::Printer(std::shared_ptr<const MachineConfig> config, Services services,
       motion(config->motion, settings),
       feeder(config->filament),
       runner(*this),
+      host(*this),
       config_(std::move(config)),
       services_(services),
       random_state_(seed ^ 0x9E3779B97F4A7C15ULL) {
@@ -46,6 +47,8 @@ void Printer::power_on(SimTime now) {
     storage.choose(0);
     job.power_on();
     runner.power_on();
+    modal = {};
+    host.power_on();
     screen = ScreenSide{};
     wifi = Wifi{};
     steppers = Steppers{};
@@ -76,6 +79,7 @@ void Printer::advance(SimTime now) {
             events.raise(EventId::card_missing);
         }
         runner.advance(next);
+        host.advance(next);
         motion.start_stream(next);
         follow_filament();
         if (was_moving) {
@@ -90,7 +94,7 @@ SimTime Printer::next_event() const {
     if (hung_) {
         return breakdowns.next_event();
     }
-    return std::min({motion.next_event(), feeder.next_event(), wait.next_event(), runner.next_event(),
+    return std::min({motion.next_event(), feeder.next_event(), wait.next_event(), runner.next_event(), host.next_event(),
                      card_check_, thermal.next_alarm_check(), breakdowns.next_event()});
 }
 
@@ -226,6 +230,11 @@ bool Printer::resume_job() {
 }
 
 bool Printer::start_or_resume_job() {
+    if (job.waits_for_user && !job.active()) {  // an M0 of the USB side
+        job.waits_for_user = false;
+        events.raise(EventId::job_resumed);
+        return true;
+    }
     if (resume_job()) {
         return true;
     }

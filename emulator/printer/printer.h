@@ -12,6 +12,7 @@
 #include "emulator/printer/events.h"
 #include "emulator/printer/feeder.h"
 #include "emulator/printer/heating_wait.h"
+#include "emulator/printer/host_commands.h"
 #include "emulator/printer/job.h"
 #include "emulator/printer/job_runner.h"
 #include "emulator/printer/machine_config.h"
@@ -137,6 +138,8 @@ class Printer {
     Storage storage;
     Job job;
     JobRunner runner;
+    GcodeModal modal;
+    HostCommands host;
     ScreenSide screen;
     Wifi wifi;
     Steppers steppers;

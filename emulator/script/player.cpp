@@ -65,7 +65,7 @@ void Player::push(Passed passed) {
 }
 
 void Player::on_received(SimTime now, board::Channel channel, std::string_view line, board::Verdict verdict) {
-    if (channel != board::Channel::screen || verdict != board::Verdict::accepted) {
+    if (channel != board::Channel::main || verdict != board::Verdict::accepted) {
         return;
     }
     const std::string_view body = body_of(line);
@@ -73,7 +73,10 @@ void Player::on_received(SimTime now, board::Channel channel, std::string_view l
     push({Trigger::Kind::request, now, std::string(body), {}});
 }
 
-void Player::on_sent(SimTime now, std::string_view line) {
+void Player::on_sent(SimTime now, board::Channel channel, std::string_view line) {
+    if (channel != board::Channel::main) {
+        return;
+    }
     const std::string_view body = body_of(line);
     keep_talk(now, Talk::From::board, body);
     push({Trigger::Kind::line, now, std::string(body), {}});

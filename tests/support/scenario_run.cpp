@@ -37,7 +37,7 @@ struct Writer final : host::LiveObserver {
     void on_received(SimTime now, board::Channel, std::string_view line, board::Verdict) override {
         text += fmt::format("{} > {}\n", now.count(), line);
     }
-    void on_sent(SimTime now, std::string_view line) override {
+    void on_sent(SimTime now, board::Channel, std::string_view line) override {
         text += fmt::format("{} < {}\n", now.count(), line);
     }
     void on_notice(SimTime, board::Level, std::string_view) override {}
