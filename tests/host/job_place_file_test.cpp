@@ -19,7 +19,7 @@ namespace {
 
 struct Bench {
     link::test::TemporaryFolder folder;
-    std::string file = folder.path("eeprom.job");
+    std::string file = folder.file("eeprom.job");
     std::string trouble;
     JobPlaceFile open() {
         return JobPlaceFile(file, [this](std::string_view text) { trouble = text; });
@@ -159,6 +159,6 @@ TEST_CASE_FIXTURE(Bench, "job place: any file gives a place or none, and the nex
 }
 
 TEST_CASE_FIXTURE(Bench, "job place: a file that cannot be is an error with a reason") {
-    CHECK_THROWS_AS(JobPlaceFile(folder.path("missing/eeprom.job"), {}), host::HostError);
+    CHECK_THROWS_AS(JobPlaceFile(folder.file("missing/eeprom.job"), {}), host::HostError);
     CHECK_THROWS_AS(JobPlaceFile("/dev/null", {}), host::HostError);
 }
