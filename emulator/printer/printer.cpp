@@ -93,6 +93,7 @@ void Printer::advance(SimTime now) {
     }
     thermal.advance(now);
     now_ = now;
+    breakdowns.advance(now);  // what somebody has seen to is over
 }
 
 SimTime Printer::next_event() const {
