@@ -158,6 +158,12 @@ void Loader::load_frame_lines(const Json& node, const std::string& pointer, Fram
             if (const Json* text = reader.get("line")) {
                 line.text = compile(*text, reader.pointer("line"), true);
             }
+            if (const Json* when = reader.get("when")) {
+                Names names = request_names_;
+                names.loop = true;
+                line.when = RuleCompiler(findings_, names, frame_index_, *machine_)
+                                .conditions(*when, reader.pointer("when"));
+            }
             line.for_each_entry = true;
             reader.finish();
         } else {
@@ -169,7 +175,7 @@ void Loader::load_frame_lines(const Json& node, const std::string& pointer, Fram
 
 void Loader::load_frame(const Json& node, const std::string& pointer, Frame& frame) {
     if (!node.is_object()) {
-        frame.lines.push_back({compile(node, pointer, false), false});
+        frame.lines.push_back({compile(node, pointer, false), false, {}});
         return;
     }
     ObjectReader reader(node, pointer, findings_);
@@ -177,12 +183,16 @@ void Loader::load_frame(const Json& node, const std::string& pointer, Frame& fra
     std::size_t style = 0;
     reader.choice("style", styles, style);
     frame.style = static_cast<protocol::FrameStyle>(style);
+    constexpr std::array<std::string_view, 3> ends{"crlf", "lf", "none"};
+    std::size_t end = 0;
+    reader.choice("end", ends, end);
+    frame.end = static_cast<protocol::LineEnd>(end);
     const Json* text = reader.get("line");
     const Json* lines = reader.get("lines");
     if ((text == nullptr) == (lines == nullptr)) {
         findings_.add(pointer, "expected either \"line\" or \"lines\"");
     } else if (text != nullptr) {
-        frame.lines.push_back({compile(*text, reader.pointer("line"), false), false});
+        frame.lines.push_back({compile(*text, reader.pointer("line"), false), false, {}});
     } else {
         load_frame_lines(*lines, reader.pointer("lines"), frame);
     }
