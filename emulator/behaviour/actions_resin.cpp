@@ -79,6 +79,17 @@ void start(ActionContext& c, Args) {
     }
 }
 
+void print(ActionContext& c, Args a) {
+    Resin* const resin = part(c);
+    if (resin == nullptr) {
+        return;
+    }
+    choose(c, a);
+    if (resin->outcome == Resin::Outcome::opened) {
+        resin->start();
+    }
+}
+
 /// Each letter of the request that this code has a setting for.
 void config_set(ActionContext& c, Args) {
     Resin* const resin = part(c);
@@ -159,6 +170,8 @@ constexpr std::array table{
                "prints the file opened, or goes on with a paused print; resin.outcome says whether it did",
                {},
                start},
+    ActionInfo{"resin.print", "", "opens a file and prints it (M6030); resin.outcome says what became of it",
+               name_args, print},
     ActionInfo{"config.set",
                "",
                "settings of this code (M8xxx), by the letters of the request; the machine uses them after "

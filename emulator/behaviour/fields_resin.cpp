@@ -61,6 +61,8 @@ constexpr std::array own{
          "of the print: idle, homing, reading, approaching, resting, exposing, lifting, waiting, finishing, "
          "held",
          [](const Printer&, const Resin& r) { return to_string(r.job.phase()); }),
+    seen("resin.halted", boolean, "", "no layers are being printed: idle, or paused; D of M4000, third",
+         [](const Printer& p, const Resin&) { return p.job.status() != printer::JobStatus::printing; }),
     seen("resin.led", boolean, "", "the LED shines", [](const Printer&, const Resin& r) { return r.led(); }),
     seen("resin.light", integer, "", "light of the layer being exposed as the file says it, 0 to 255",
          [](const Printer&, const Resin& r) { return r.job.light(); }),
@@ -81,8 +83,6 @@ constexpr std::array own{
          [](const Printer&, const Resin& r) { return std::string_view{r.file}; }),
     seen("resin.file_bytes", integer, "bytes", "its size",
          [](const Printer&, const Resin& r) { return r.file_bytes; }),
-    kept("resin.network_name", text, "", 0, 15, "name in the network (U100)",
-         FAUXBOARD_RESIN_PLACE(network_name)),
     kept("resin.wifi_password", text, "", 0, 63, "password of the network (M9003, M9005)",
          FAUXBOARD_RESIN_PLACE(wifi_password)),
 };
@@ -111,6 +111,9 @@ Field setting() {
 template <std::size_t... I>
 std::vector<Field> all_rows(std::index_sequence<I...>) {
     std::vector<Field> rows(own.begin(), own.end());
+    rows.push_back(kept("resin.network_name", text, "", 0, 15, "name in the network (U100)",
+                        FAUXBOARD_RESIN_PLACE(network_name)));
+    rows.back().stored = true;
     (rows.push_back(setting<I>()), ...);
     return rows;
 }

@@ -336,7 +336,7 @@ void load_resin(const Json& node, const std::string& pointer, Findings& findings
                                                         "indicator", "driver", "printer", "lcd"};
         ObjectReader row(*status, reader.pointer("status"), findings);
         for (std::size_t i = 0; i < words.size(); ++i) {
-            row.unsigned_integer(words[i], out.status[i], 0, 0xFFFFFFFFU);
+            row.unsigned_integer(words[i], out.status[i], 0, 0x7FFFFFFFU);
         }
         row.finish();
     }
