@@ -31,9 +31,11 @@ struct Frame {
     struct Line {
         FrameTemplate text;
         bool for_each_entry = false;  ///< once per entry of the card's listing
+        std::vector<Condition> when;  ///< of these entries only
     };
     std::string name;
     protocol::FrameStyle style = protocol::FrameStyle::framed;
+    protocol::LineEnd end = protocol::LineEnd::crlf;
     std::vector<Line> lines;
     std::vector<ActionCall> then;  ///< done when it is queued
     std::vector<const Field*>
@@ -123,7 +125,10 @@ class Profile {
     }
 
     struct RequestTable {
-        CodeTable codes;  ///< by code_key
+        /// The key of the rules for all that has none of its own.
+        static constexpr std::string_view any_request = "*";
+        const std::vector<Rule>* any() const;  ///< null: there are none
+        CodeTable codes;                       ///< by code_key
         std::map<std::string, std::vector<Rule>, std::less<>> words;
     };
     RequestTable screen_;

@@ -43,6 +43,7 @@ class Loader {
     Names names_;
     Names request_names_;
     FrameIndex frame_index_;
+    protocol::FrameStyle style_{};  ///< of frames that do not say theirs
     std::shared_ptr<Profile> profile_ = std::make_shared<Profile>();
     std::shared_ptr<printer::MachineConfig> machine_ = std::make_shared<printer::MachineConfig>();
 };
@@ -52,10 +53,11 @@ void Loader::load_head(ObjectReader& root) {
     root.text("name", profile_->name, 64);
     root.text("title", profile_->title, 256);
     root.get("extends");  // resolved before
-    constexpr std::array<std::string_view, 1> protocols{"smartto"};
+    constexpr std::array<std::string_view, 2> protocols{"smartto", "gcode"};
     std::size_t protocol = 0;
     root.required("protocol");
     root.choice("protocol", protocols, protocol);
+    style_ = protocol == 0 ? protocol::FrameStyle::framed : protocol::FrameStyle::bare;
     if (const Json* line = root.get("line")) {
         load_line(*line, root.pointer("line"));
     }
@@ -158,6 +160,12 @@ void Loader::load_frame_lines(const Json& node, const std::string& pointer, Fram
             if (const Json* text = reader.get("line")) {
                 line.text = compile(*text, reader.pointer("line"), true);
             }
+            if (const Json* when = reader.get("when")) {
+                Names names = request_names_;
+                names.loop = true;
+                line.when = RuleCompiler(findings_, names, frame_index_, *machine_)
+                                .conditions(*when, reader.pointer("when"));
+            }
             line.for_each_entry = true;
             reader.finish();
         } else {
@@ -168,21 +176,26 @@ void Loader::load_frame_lines(const Json& node, const std::string& pointer, Fram
 }
 
 void Loader::load_frame(const Json& node, const std::string& pointer, Frame& frame) {
+    frame.style = style_;
     if (!node.is_object()) {
-        frame.lines.push_back({compile(node, pointer, false), false});
+        frame.lines.push_back({compile(node, pointer, false), false, {}});
         return;
     }
     ObjectReader reader(node, pointer, findings_);
     constexpr std::array<std::string_view, 4> styles{"framed", "bare", "star_only", "unfinished"};
-    std::size_t style = 0;
+    auto style = static_cast<std::size_t>(frame.style);
     reader.choice("style", styles, style);
     frame.style = static_cast<protocol::FrameStyle>(style);
+    constexpr std::array<std::string_view, 3> ends{"crlf", "lf", "none"};
+    std::size_t end = 0;
+    reader.choice("end", ends, end);
+    frame.end = static_cast<protocol::LineEnd>(end);
     const Json* text = reader.get("line");
     const Json* lines = reader.get("lines");
     if ((text == nullptr) == (lines == nullptr)) {
         findings_.add(pointer, "expected either \"line\" or \"lines\"");
     } else if (text != nullptr) {
-        frame.lines.push_back({compile(*text, reader.pointer("line"), false), false});
+        frame.lines.push_back({compile(*text, reader.pointer("line"), false), false, {}});
     } else {
         load_frame_lines(*lines, reader.pointer("lines"), frame);
     }

@@ -269,7 +269,7 @@ void Board::compose_line(const Frame& frame, const behaviour::FrameTemplate& tex
         return;  // no room for the line: it is left out
     }
     counters_.lines_cut += cut ? 1 : 0;
-    const std::size_t size = protocol::dress_frame(room, body.size, body.sum, frame.style);
+    const std::size_t size = protocol::dress_frame(room, body.size, body.sum, frame.style, frame.end);
     draft.size += size;
     draft.lines += size != 0 ? 1 : 0;
 }
@@ -284,7 +284,9 @@ void Board::compose(const Frame& frame, const Scope& here, Draft& draft) {
         Scope inside = here;
         for (const printer::CardEntry& entry : machine_.listing()) {
             inside.entry = &entry;
-            compose_line(frame, line.text, inside, std::max(draft.size, end - closing_room), draft);
+            if (behaviour::all_hold(line.when, inside)) {
+                compose_line(frame, line.text, inside, std::max(draft.size, end - closing_room), draft);
+            }
             ++inside.index;
         }
     }
@@ -299,10 +301,10 @@ void Board::emit(std::string_view message) {
 
 void Board::tell_sent(std::string_view message) {
     while (options_.observer != nullptr && !message.empty()) {
-        const std::size_t end = std::min(message.find('\n'), message.size() - 1);
+        const std::size_t end = std::min(message.find('\n'), message.size());
         const std::string_view line = message.substr(0, end);
         options_.observer->on_sent(time_, line.substr(0, line.find_last_not_of("\r\n") + 1));
-        message.remove_prefix(end + 1);
+        message.remove_prefix(std::min(end + 1, message.size()));
     }
 }
 

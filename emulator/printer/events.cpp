@@ -43,6 +43,8 @@ constexpr std::array<EventInfo, event_count> table{{
     {EventId::job_message, "job.message", "the file being printed has a message (M117): job.message"},
     {EventId::job_waits_for_user, "job.waits_for_user",
      "the file being printed waits for the user (M0, M1, M600); resuming goes on"},
+    {EventId::job_layer_done, "job.layer_done", "a layer of a resin print has been exposed"},
+    {EventId::board_reboot_due, "board.reboot_due", "the time that board.reboot was given has passed"},
 }};
 
 consteval bool ordered() {

@@ -46,6 +46,8 @@ enum class EventId : std::uint8_t {
     job_file_lost,
     job_message,
     job_waits_for_user,
+    job_layer_done,
+    board_reboot_due,
     count_  // not an event
 };
 

@@ -23,9 +23,13 @@ Printer::Printer(std::shared_ptr<const MachineConfig> config, Services services,
     if (services_.sd == nullptr && config_->card.present) {
         built_in_.emplace(config_->card.entries);
     }
-    insert_card(0);
+    storage.configure(config_->card.way_back, config_->card.ignore_case);
+    if (config_->resin) {
+        resin = std::make_unique<Resin>(*this);
+    }
+    put_in(0);
     if (config_->udisk_port) {
-        insert_card(1);
+        put_in(1);
     }
     events.clear();
 }
@@ -52,6 +56,9 @@ void Printer::power_on(SimTime now) {
     events.clear();
     stall_ = SimTime{0};
     card_check_ = storage.usable(0) ? never : now + card_check_delay;
+    if (resin) {
+        resin->power_on(now);
+    }
 }
 
 void Printer::advance(SimTime now) {
@@ -69,6 +76,9 @@ void Printer::advance(SimTime now) {
         }
         runner.advance(next);
         motion.start_stream(next);
+        if (resin) {
+            resin->advance(next);
+        }
         if (was_moving) {
             emit_after_motion();
         }
@@ -78,13 +88,13 @@ void Printer::advance(SimTime now) {
 }
 
 SimTime Printer::next_event() const {
-    return std::min(
-        {motion.next_event(), feeder.next_event(), wait.next_event(), runner.next_event(), card_check_});
+    return std::min({motion.next_event(), feeder.next_event(), wait.next_event(), runner.next_event(),
+                     card_check_, resin ? resin->next_event() : never});
 }
 
 bool Printer::restless() const {
     return motion.busy() || feeder.mode() != Feeder::Mode::idle || wait.active() || !thermal.settled() ||
-           job.status() == JobStatus::printing;
+           job.status() == JobStatus::printing || (resin && resin->restless());
 }
 
 void Printer::emit_after_motion() {
@@ -152,6 +162,18 @@ void Printer::insert_card(int disk) {
     if (disk == 1 && !config_->udisk_port) {
         return;
     }
+    if (disk == 0 && resin) {
+        resin->put_stick_in(now_);
+        return;
+    }
+    put_in(disk);
+}
+
+void Printer::mount_stick() {
+    put_in(0);
+}
+
+void Printer::put_in(int disk) {
     Volume* volume = disk == 1 ? services_.udisk : services_.sd;
     if (volume == nullptr && disk == 0 && built_in_) {
         volume = &*built_in_;
@@ -165,6 +187,9 @@ void Printer::insert_card(int disk) {
 
 void Printer::remove_card(int disk) {
     const bool was_there = storage.usable(disk);
+    if (disk == 0 && resin) {
+        resin->take_stick_out();
+    }
     storage.attach(disk, nullptr);
     if (was_there) {
         events.raise(EventId::card_removed);
@@ -205,12 +230,15 @@ void Printer::select_file(std::string_view name) {
 
 bool Printer::start_or_resume_job() {
     if (job.resume(now_)) {
-        runner.resume(now_);
+        resin ? resin->job.resume(now_) : runner.resume(now_);
         events.raise(EventId::job_resumed);
         return true;
     }
+    if (resin && !resin->job.open()) {
+        return false;
+    }
     if (job.start(now_)) {
-        runner.start(now_);
+        resin ? resin->job.start(now_) : runner.start(now_);
         events.raise(EventId::job_started);
         return true;
     }
@@ -218,6 +246,9 @@ bool Printer::start_or_resume_job() {
 }
 
 void Printer::seek_job(double byte) {
+    if (resin) {
+        return;  // its place is a layer's end, and nothing between
+    }
     job.set_byte(byte);
     if (job.active()) {
         runner.seek();
@@ -232,6 +263,10 @@ void Printer::pause_job(bool park) {
     if (!job.begin_pause()) {
         return;
     }
+    if (resin) {
+        resin->pause(now_);
+        return;
+    }
     runner.pause();
     if (park) {
         run("park");
@@ -244,6 +279,9 @@ bool Printer::stop_job() {
         return false;
     }
     runner.stop();
+    if (resin) {
+        resin->job.stop(now_);
+    }
     motion.abort();
     thermal.set_target(HeaterId::nozzle, 0);
     thermal.set_target(HeaterId::bed, 0);
@@ -254,6 +292,11 @@ bool Printer::stop_job() {
 bool Printer::finish_job() {
     if (!job.finish(now_)) {
         return false;
+    }
+    if (resin) {
+        resin->job.stop(now_);
+        events.raise(EventId::job_finished);
+        return close_job();  // such a board shows no finished print: it is idle at once
     }
     runner.finished(now_);
     events.raise(EventId::job_finished);
@@ -272,6 +315,9 @@ bool Printer::close_job() {
 void Printer::emergency_stop() {
     job.stop();
     runner.stop();
+    if (resin) {
+        resin->job.halt(now_);
+    }
     feeder.power_on();
     wait.cancel(events);
     thermal.set_target(HeaterId::nozzle, 0);

@@ -16,6 +16,7 @@
 #include "emulator/printer/machine_config.h"
 #include "emulator/printer/mixer.h"
 #include "emulator/printer/motion.h"
+#include "emulator/printer/resin.h"
 #include "emulator/printer/sim_time.h"
 #include "emulator/printer/state.h"
 #include "emulator/printer/storage.h"
@@ -78,6 +79,8 @@ class Printer {
     void set_filament(bool present);
     void insert_card(int disk);
     void remove_card(int disk);
+    /// The stick that was put into a resin board can be read from now on.
+    void mount_stick();
     /// The disk stays where it is and can no longer be read; insert_card() puts a good one in.
     void fail_card(int disk);
     void select_file(std::string_view name);
@@ -118,6 +121,7 @@ class Printer {
     Steppers steppers;
     PowerLoss power_loss;
     EventQueue events;
+    std::unique_ptr<Resin> resin;  ///< null on boards of other printers
 
     /// What the EEPROM holds, and what it is written to.
     EepromImage eeprom_image;
@@ -132,6 +136,7 @@ class Printer {
 
   private:
     void emit_after_motion();
+    void put_in(int disk);
 
     std::shared_ptr<const MachineConfig> config_;
     Services services_;

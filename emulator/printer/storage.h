@@ -72,6 +72,12 @@ class Storage {
   public:
     static constexpr std::size_t disk_count = 2;  // 0 SD card, 1 U-disk
 
+    /// How the board lists and finds; as CardConfig says.
+    void configure(bool way_back, bool ignore_case) {
+        way_back_ = way_back;
+        ignore_case_ = ignore_case;
+    }
+
     void attach(int disk, Volume* volume);  ///< nullptr takes it out
     void set_state(int disk, DiskState state) { states_[index(disk)] = state; }
     void mount(int disk);    ///< M21: the disk in the slot, if any, comes into use
@@ -131,6 +137,8 @@ class Storage {
     std::array<DiskState, disk_count> states_{DiskState::removed, DiskState::removed};
     int chosen_ = 0;
     std::string folder_;
+    bool way_back_ = true;
+    bool ignore_case_ = false;
 };
 
 /// What stands behind the name of a file that is being written.
