@@ -227,4 +227,29 @@ std::optional<std::size_t> BuiltInVolume::read(std::string_view path, std::uint6
     return entry->content.copy(out.data(), out.size(), static_cast<std::size_t>(offset));
 }
 
+bool Storage::path_for_writing(std::string_view name, std::string& path) const {
+    std::uint64_t bytes = 0;
+    if (!usable(chosen_) || name.ends_with('/') || !clean_path({}, name, path) || path.empty()) {
+        return false;
+    }
+    const Volume::Kind kind = volumes_[index(chosen_)]->look(path, bytes);
+    return kind == Volume::Kind::missing || kind == Volume::Kind::file;
+}
+
+bool Storage::write(std::string_view name, std::string_view bytes) {
+    std::string path;
+    Volume* const disk = volume(chosen_);
+    if (disk == nullptr || !path_for_writing(name, path)) {
+        return false;
+    }
+    const std::string beside = path + std::string(unfinished_ending);
+    return disk->create(beside) && disk->append(beside, 0, bytes) && disk->rename(beside, path);
+}
+
+bool Storage::remove(std::string_view name) {
+    const Found found = find(name);
+    Volume* const disk = volume(chosen_);
+    return found.kind == Volume::Kind::file && disk != nullptr && disk->remove(found.path);
+}
+
 }  // namespace fauxboard::printer

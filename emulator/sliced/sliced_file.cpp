@@ -161,6 +161,10 @@ class SlicedFileReader {
             }
             header_.bed_mm[axis] = mm;
         }
+        if (header_.pixels() > SlicedFile::max_pixels) {
+            return ok(fmt::format("The pictures (at 0x34) have {} x {} pixels; at most {} can be.",
+                                  header_.width, header_.height, SlicedFile::max_pixels));
+        }
         header_.mirrored = load_u32(bytes_, projection_at) != 0;
         header_.pwm = load_u16(bytes_, pwm_at);
         header_.bottom_pwm = load_u16(bytes_, bottom_pwm_at);

@@ -95,7 +95,8 @@ class SlicedFile {
   public:
     static constexpr std::uint32_t header_bytes = 0x70;
     static constexpr std::uint32_t record_bytes = 36;
-    static constexpr std::uint32_t max_side = 65535;     ///< pixels
+    static constexpr std::uint32_t max_side = 32768;  ///< pixels; the biggest LCD has 15120 x 6230
+    static constexpr std::uint32_t max_pixels = 1U << 27;
     static constexpr std::uint32_t max_level_sets = 16;  ///< pictures of a layer
     static constexpr std::uint32_t max_machine_name = 256;
     static constexpr std::uint32_t max_preview_side = 4096;
