@@ -26,11 +26,11 @@ Recorder::Recorder(std::string file, OnTrouble on_trouble)
 }
 
 void Recorder::on_received(SimTime now, board::Channel channel, std::string_view line, board::Verdict) {
-    write(now, channel == board::Channel::screen ? "screen" : "host", line);
+    write(now, channel == board::Channel::main ? "screen" : "host", line);
 }
 
-void Recorder::on_sent(SimTime now, std::string_view line) {
-    write(now, "board", line);
+void Recorder::on_sent(SimTime now, board::Channel channel, std::string_view line) {
+    write(now, channel == board::Channel::host ? "usb" : "board", line);
 }
 
 void Recorder::write(SimTime now, std::string_view from, std::string_view line) {
