@@ -158,6 +158,14 @@ void reboot(ActionContext& c, Args a) {
     }
 }
 
+/// A board that cannot take its requests as fast as they come.
+void wedge(ActionContext& c, Args a) {
+    if (printer::to_seconds(c.printer.now()) - a[0].number < a[1].number / 1000) {
+        refuse(c, "requests came too fast: the board hangs until it is reset");
+        c.printer.hang(true);
+    }
+}
+
 constexpr std::array move_args{
     ArgInfo{"z", number, true, "mm"}, ArgInfo{"f", number, false, "feed, mm/min"},
     ArgInfo{"relative", boolean, false, "by this distance, whatever G90 and G91 say"}};
@@ -167,6 +175,9 @@ constexpr std::array name_args{
             "file, relative to the root; quotes and the colon of an absolute path are taken off"}};
 constexpr std::array wifi_args{ArgInfo{"network", text, true, "name and password: \"name\",\"password\""}};
 constexpr std::array reboot_args{ArgInfo{"ms", number, false, "how long from now; at once if left out"}};
+
+constexpr std::array wedge_args{ArgInfo{"since", number, true, "board.seconds of the request before"},
+                                ArgInfo{"ms", number, true, "what comes sooner than this is too fast"}};
 
 constexpr std::array table{
     ActionInfo{"resin.move", "", "moves the platform, within its limits", move_args, move},
@@ -204,6 +215,8 @@ constexpr std::array table{
                [](ActionContext& c, Args a) { wifi(c, a, false); }},
     ActionInfo{"wifi.open", "", "opens a network of its own (M9005)", wifi_args,
                [](ActionContext& c, Args a) { wifi(c, a, true); }},
+    ActionInfo{"board.wedge", "", "the board hangs if less than a time has passed since a moment", wedge_args,
+               wedge},
     ActionInfo{"board.reboot", "", "raises board.reboot_due after a time (M6040)", reboot_args, reboot},
 };
 

@@ -135,7 +135,7 @@ void Resin::choose(std::string_view name) {
     if (plain.empty()) {
         return;
     }
-    if (printer_.job.active()) {
+    if (printer_.job.active() || printer_.refusing) {
         outcome = Outcome::busy;
         printer_.events.raise(EventId::job_refused);
         return;

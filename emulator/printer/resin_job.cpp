@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "emulator/printer/disk_source.h"
 #include "emulator/printer/printer.h"
@@ -157,14 +158,15 @@ void ResinJob::begin_layer(SimTime now) {
         return;
     }
     phase_ = Phase::reading;
-    const Volume* volume = printer_.storage.volume(printer_.job.volume());
+    const Volume* volume = std::as_const(printer_.storage).volume(printer_.job.volume());
     if (volume == nullptr) {
-        lose_file(now);
+        lose_file(EventId::job_file_lost, now);
         return;
     }
-    auto layer = file_->layer(DiskSource(*volume, printer_.job.path()), index_);
+    const DiskSource source(*volume, printer_.job.path());
+    auto layer = file_->layer(source, index_);
     if (!layer) {
-        lose_file(now);
+        lose_file(source.size() == 0 ? EventId::job_file_lost : EventId::job_file_unreadable, now);
         return;
     }
     layer_ = *layer;
@@ -241,12 +243,12 @@ void ResinJob::hold(SimTime now) {
     printer_.events.raise(EventId::job_paused);
 }
 
-void ResinJob::lose_file(SimTime now) {
+void ResinJob::lose_file(EventId why, SimTime now) {
     pause_due_ = never;
     held_ = Phase::reading;
     phase_ = Phase::held;
     printer_.job.pause(now);
-    printer_.events.raise(EventId::job_file_lost);
+    printer_.events.raise(why);
 }
 
 void ResinJob::resume(SimTime now) {

@@ -72,7 +72,7 @@ class ResinJob {
     void finish(SimTime now);
     void finished(SimTime now);
     void hold(SimTime now);
-    void lose_file(SimTime now);
+    void lose_file(EventId why, SimTime now);
     bool moves() const;
 
     Printer& printer_;

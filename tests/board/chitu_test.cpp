@@ -205,3 +205,25 @@ TEST_CASE("chitu: any split of the bytes is answered alike") {
         CHECK(answered(piece) == whole);
     }
 }
+
+TEST_CASE("chitu 4.4.3: requests that come too fast hang it, a reset helps") {
+    BoardDriver driver("chitu-4.4.3");
+    driver.run_until(2);
+    driver.feed("M4000\r\n");
+    driver.run_for(0.1);
+    driver.feed("M4000\r\n");
+    driver.run_for(0.1);
+    CHECK(driver.bytes().ends_with("ok N:0\r\nok N:1\r\n"));
+    driver.feed("M4000\r\nM27\r\nM20\r\n");
+    driver.run_for(1);
+    const std::size_t hung = driver.bytes().size();
+    CHECK_FALSE(driver.notices().empty());
+    driver.feed("M4000\r\n");
+    driver.run_for(10);
+    CHECK(driver.bytes().size() == hung);
+    driver.world("board reset");
+    driver.run_for(1);
+    driver.feed("M4000\r\n");
+    driver.run_for(0.1);
+    CHECK(driver.bytes().ends_with("\r\nok N:0\r\n"));
+}
