@@ -159,16 +159,18 @@ void Board::take_line(Channel channel, std::string_view line) {
     }
     std::string_view body;
     bool bad = false;
+    bool ticks = true;
     if (profile_->line.framing == behaviour::Framing::smartto) {
         const protocol::Unframed unframed = protocol::unframe(line, profile_->line.checksum);
         body = unframed.body;
         bad = unframed.fault != protocol::FrameFault::none;
+        ticks = is_code(body);
     } else {
         body = protocol::unframe_host_line(line).body;
     }
     Verdict verdict = Verdict::accepted;
     const bool paced = options_.pacing && channel == Channel::main;
-    const bool waits = paced ? is_code(body) : port(channel).output.size() >= output_limit;
+    const bool waits = paced ? ticks : port(channel).output.size() >= output_limit;
     if (machine_.hung()) {
         ++counters_.requests_lost;
         verdict = Verdict::queue_full;
@@ -400,8 +402,7 @@ SimTime Board::nothing_before() const {
 /// Goes through the slots before `end`. Those passed over because nothing could come of them are among them,
 /// for their rounds to count.
 void Board::run_slots(SimTime end) {
-    while (!machine_.hung() && wheel_.next_slot() < end &&
-           port(Channel::main).output.size() < output_limit) {
+    while (!machine_.hung() && wheel_.next_slot() < end && port(Channel::main).output.size() < output_limit) {
         const behaviour::Slot* slot = wheel_.turn(scope());
         if (slot != nullptr) {
             Send entry;

@@ -85,12 +85,9 @@ void Printer::advance(SimTime now) {
             card_check_ = never;
             events.raise(EventId::card_missing);
         }
-        runner.advance(next);
+        resin ? resin->advance(next) : runner.advance(next);
         host.advance(next);
         motion.start_stream(next);
-        if (resin) {
-            resin->advance(next);
-        }
         follow_filament();
         if (was_moving) {
             emit_after_motion();
@@ -104,9 +101,9 @@ SimTime Printer::next_event() const {
     if (hung_) {
         return breakdowns.next_event();
     }
-    return std::min({motion.next_event(), feeder.next_event(), wait.next_event(), runner.next_event(),
-                     host.next_event(), card_check_, thermal.next_alarm_check(), breakdowns.next_event(),
-                     resin ? resin->next_event() : never});
+    return std::min({motion.next_event(), feeder.next_event(), wait.next_event(),
+                     (resin ? resin->next_event() : runner.next_event()), host.next_event(), card_check_,
+                     thermal.next_alarm_check(), breakdowns.next_event()});
 }
 
 bool Printer::restless() const {

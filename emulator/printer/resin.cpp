@@ -33,8 +33,7 @@ std::string_view bare_name(std::string_view name) {
             name.remove_prefix(1);
         }
     };
-    strip([](char c) { return c == ' '; });
-    strip([](char c) { return c == ':'; });
+    strip([](char c) { return c == ' ' || c == ':'; });
     if (!name.empty() && quote(name.front())) {
         const char mark = name.front();
         name.remove_prefix(1);

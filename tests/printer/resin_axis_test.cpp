@@ -160,6 +160,8 @@ TEST_CASE("resin axis: what waits is bounded") {
     CHECK_FALSE(bench.axis.home(bench.now));
     CHECK_FALSE(bench.axis.stir(50, bench.now));
     bench.rest();
+    bench.axis.move(-50, true, 300, bench.now);
+    bench.rest();
     CHECK(bench.axis.stir(50, bench.now));
     const double z = bench.z();
     bench.rest();
