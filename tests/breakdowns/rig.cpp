@@ -177,9 +177,9 @@ void Rig::on_received(SimTime now, board::Channel channel, std::string_view line
     hub_.on_received(now, channel, line, verdict);
 }
 
-void Rig::on_sent(SimTime now, std::string_view line) {
+void Rig::on_sent(SimTime now, board::Channel channel, std::string_view line) {
     lines_.push_back({printer::to_seconds(now), said(line)});
-    hub_.on_sent(now, line);
+    hub_.on_sent(now, channel, line);
 }
 
 void Rig::on_notice(SimTime now, board::Level level, std::string_view text) {

@@ -75,7 +75,7 @@ class Rig final : private control::Target, private board::Observer {
     control::Json status() const override { return control::Json::object(); }
     void on_received(SimTime now, board::Channel channel, std::string_view line,
                      board::Verdict verdict) override;
-    void on_sent(SimTime now, std::string_view line) override;
+    void on_sent(SimTime now, board::Channel channel, std::string_view line) override;
     void on_notice(SimTime now, board::Level level, std::string_view text) override;
     void exchange();
 
