@@ -15,6 +15,7 @@
 #include "emulator/host/faulty_link.h"
 #include "emulator/host/folder_card.h"
 #include "emulator/host/host_error.h"
+#include "emulator/host/job_place_file.h"
 #include "emulator/host/json_log.h"
 #include "emulator/host/line_log.h"
 #include "emulator/host/live_board.h"
@@ -103,6 +104,7 @@ class Run {
     std::optional<host::FolderCard> udisk_;
     std::optional<printer::BuiltInVolume> scenario_card_;
     std::optional<host::EepromFile> eeprom_;
+    std::optional<host::JobPlaceFile> job_place_;
     std::optional<host::Recorder> recorder_;
     std::unique_ptr<host::Clock> clock_;
     std::unique_ptr<link::Link> wire_;  ///< the line as it is, if it leads out of this process
@@ -163,6 +165,7 @@ void Run::set_up() {
     set_up_disks(services);
     if (!options_.eeprom.empty()) {
         services.eeprom = &eeprom_.emplace(options_.eeprom, warn);
+        services.job_place = &job_place_.emplace(eeprom_->file() + ".job", warn);
     }
     board::Options options;
     options.pacing = options_.pacing;

@@ -145,7 +145,10 @@ void declare_run_options(CLI::App& command, RunOptions& options) {
         .add_option("--udisk", options.udisk,
                     "Folder that is the U-disk, of a board with a port for one (default: none)")
         ->type_name("DIR");
-    command.add_option("--eeprom", options.eeprom, "File that keeps the board's settings (default: none)")
+    command
+        .add_option("--eeprom", options.eeprom,
+                    "File that keeps the board's settings, and beside it FILE.job the place of a print "
+                    "(default: none)")
         ->type_name("FILE");
     declare_script(command, options);
     declare_time(command, options);

@@ -169,6 +169,22 @@ constexpr std::array table{
                "the job is at its end",
                {},
                [](ActionContext& c, Args) { c.printer.finish_job(); }},
+    ActionInfo{
+        "job.recover",
+        "",
+        "takes up the job that a power loss cut off: heats, homes X and Y, goes on where it was; raises "
+        "file.missing when its file is gone",
+        {},
+        [](ActionContext& c, Args) { c.printer.recovery.begin(); }},
+    ActionInfo{"job.forget",
+               "",
+               "drops the job that a power loss cut off",
+               {},
+               [](ActionContext& c, Args) {
+                   if (c.printer.recovery.saved() != nullptr) {
+                       c.printer.recovery.drop();
+                   }
+               }},
     ActionInfo{"job.seek", "", "position in the file (M26)", seek_args,
                [](ActionContext& c, Args a) { c.printer.seek_job(a[0].number); }},
     ActionInfo{"eeprom.save", "", "stores settings (M500)", prefix_args, eeprom_save},

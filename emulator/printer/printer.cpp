@@ -18,12 +18,14 @@ Printer::Printer(std::shared_ptr<const MachineConfig> config, Services services,
       feeder(config->filament),
       runner(*this),
       host(*this),
+      recovery(*this),
       config_(std::move(config)),
       services_(services),
       random_state_(seed ^ 0x9E3779B97F4A7C15ULL) {
     if (services_.sd == nullptr && config_->card.present) {
         built_in_.emplace(config_->card.entries);
     }
+    recovery.load(services_.job_place);
     insert_card(0);
     if (config_->udisk_port) {
         insert_card(1);
@@ -49,6 +51,7 @@ void Printer::power_on(SimTime now) {
     runner.power_on();
     modal = {};
     host.power_on();
+    recovery.power_on();
     screen = ScreenSide{};
     wifi = Wifi{};
     steppers = Steppers{};
@@ -80,7 +83,9 @@ void Printer::advance(SimTime now) {
         }
         runner.advance(next);
         host.advance(next);
+        recovery.advance(next);
         motion.start_stream(next);
+        recovery.keep();
         follow_filament();
         if (was_moving) {
             emit_after_motion();
@@ -88,14 +93,16 @@ void Printer::advance(SimTime now) {
     }
     thermal.advance(now);
     now_ = now;
+    breakdowns.advance(now);  // what somebody has seen to is over
 }
 
 SimTime Printer::next_event() const {
     if (hung_) {
         return breakdowns.next_event();
     }
-    return std::min({motion.next_event(), feeder.next_event(), wait.next_event(), runner.next_event(), host.next_event(),
-                     card_check_, thermal.next_alarm_check(), breakdowns.next_event()});
+    return std::min({motion.next_event(), feeder.next_event(), wait.next_event(), runner.next_event(),
+                     host.next_event(), recovery.next_event(), card_check_, thermal.next_alarm_check(),
+                     breakdowns.next_event()});
 }
 
 bool Printer::restless() const {
@@ -230,11 +237,6 @@ bool Printer::resume_job() {
 }
 
 bool Printer::start_or_resume_job() {
-    if (job.waits_for_user && !job.active()) {  // an M0 of the USB side
-        job.waits_for_user = false;
-        events.raise(EventId::job_resumed);
-        return true;
-    }
     if (resume_job()) {
         return true;
     }
@@ -277,6 +279,8 @@ bool Printer::stop_job() {
         return false;
     }
     runner.stop();
+    recovery.abort();
+    recovery.drop();
     motion.abort();
     thermal.set_target(HeaterId::nozzle, 0);
     thermal.set_target(HeaterId::bed, 0);
@@ -289,8 +293,15 @@ bool Printer::finish_job() {
         return false;
     }
     runner.finished(now_);
+    recovery.drop();
     events.raise(EventId::job_finished);
     return true;
+}
+
+void Printer::continue_recovered_job() {
+    job.go_on(now_);
+    runner.start(now_);
+    events.raise(EventId::job_started);
 }
 
 bool Printer::close_job() {
@@ -303,7 +314,10 @@ bool Printer::close_job() {
 }
 
 void Printer::emergency_stop() {
-    job.stop();
+    if (job.stop()) {
+        recovery.abort();
+        recovery.drop();
+    }
     runner.stop();
     feeder.power_on();
     wait.cancel(events);

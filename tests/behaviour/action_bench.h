@@ -80,5 +80,6 @@ struct ActionRow {
 
 const std::vector<ActionRow>& machine_action_rows();
 const std::vector<ActionRow>& device_action_rows();
+const std::vector<ActionRow>& fault_action_rows();
 
 }  // namespace fauxboard::testing

@@ -83,6 +83,17 @@ TEST_CASE("describe: every kind of fault and every attribute is there, for peopl
     for (const fault::CommonAttribute& attribute : fault::common_attributes()) {
         check_attribute(attribute);
     }
+    CHECK(faults["printer"]["kinds"].size() == printer::breakdowns().size());
+    for (const fault::Kind* kind : fault::printer_kinds()) {
+        CAPTURE(kind->name);
+        CHECK(text.find("\n  " + std::string(kind->name) + " ") != std::string::npos);
+        CHECK(text.find(kind->help) != std::string::npos);
+        CHECK(page.find("**`" + std::string(kind->name) + "`** " + std::string(kind->help)) !=
+              std::string::npos);
+        for (const fault::Attribute& attribute : kind->attributes) {
+            check_attribute(attribute);
+        }
+    }
 }
 
 TEST_CASE("describe: the control channel's ops, topics and errors are all there") {
