@@ -18,7 +18,8 @@ auto order(const CodeInfo& code) {
 std::vector<CodeInfo> collect() {
     std::vector<CodeInfo> all;
     for (const auto part : {tables::status_replies(), tables::special_replies(), tables::bare_replies(),
-                            tables::machine_requests(), tables::job_requests(), tables::smartto_requests()}) {
+                            tables::machine_requests(), tables::job_requests(), tables::smartto_requests(),
+                            tables::chitu_requests(), tables::chitu_replies()}) {
         all.insert(all.end(), part.begin(), part.end());
     }
     std::sort(all.begin(), all.end(),

@@ -169,13 +169,17 @@ bool parse_command(std::string_view body, Command& command) {
     const bool coded = (first == 'G' || first == 'M' || first == 'T' || first == 'L') && body.size() > 1 &&
                        scan::is_digit(body[1]);
     std::size_t end = 1;
+    bool fits = coded;
     if (coded) {
-        for (; end < body.size() && scan::is_digit(body[end]); ++end) {
+        for (; fits && end < body.size() && scan::is_digit(body[end]); ++end) {
             command.number = command.number * 10 + static_cast<std::uint32_t>(body[end] - '0');
-            if (command.number > 65535) return false;
+            fits = command.number <= 65535;
         }
+    }
+    if (fits) {
         command.letter = first;
     } else {
+        command.number = 0;
         while (end < body.size() && !scan::is_blank(body[end])) {
             ++end;
         }

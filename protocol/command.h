@@ -50,7 +50,8 @@ struct Command {
 
 /// Takes a body (what unframe() returns) apart. A code is one of G M T L with digits right behind it; what
 /// follows the digits may be anything. All else is a word: the run up to the first blank, letter 0, so junk
-/// can be logged by it. Nothing for an empty or blank body and for a code over 65535.
+/// can be logged by it. So is a code over 65535 ("M99999", by which ChiTu boards are found). Nothing for an
+/// empty or blank body.
 std::optional<Command> parse_command(std::string_view body);
 
 /// The same into a Command that stands there already, without copying one about: false where the other gives

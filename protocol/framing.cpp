@@ -10,6 +10,11 @@ namespace {
 
 constexpr std::string_view prefix = "N-0 ";
 constexpr std::string_view line_end = "\r\n";
+
+constexpr std::string_view text_of(LineEnd end) {
+    return end == LineEnd::crlf ? line_end : end == LineEnd::lf ? line_end.substr(1) : std::string_view{};
+}
+
 constexpr unsigned prefix_sum = 'N' ^ '-' ^ '0' ^ ' ';
 
 char* put(char* at, std::string_view text) {
@@ -83,13 +88,15 @@ bool unframe_usual(std::string_view line, ChecksumPolicy policy, Unframed& resul
 
 /// All of a frame but its body.
 struct Dress {
-    Dress(std::size_t body_size, unsigned body_sum, FrameStyle style)
-        : head(frame_head(style)), starred(style == FrameStyle::framed || style == FrameStyle::star_only) {
+    Dress(std::size_t body_size, unsigned body_sum, FrameStyle style, LineEnd line_ends)
+        : end(text_of(line_ends)),
+          head(frame_head(style)),
+          starred(style == FrameStyle::framed || style == FrameStyle::star_only) {
         if (style == FrameStyle::framed) {
             sum = prefix_sum ^ body_sum;
             digits = sum > 99 ? 3 : sum > 9 ? 2 : 1;
         }
-        size = head + body_size + (starred ? 1 : 0) + digits + line_end.size();
+        size = head + body_size + (starred ? 1 : 0) + digits + end.size();
     }
 
     void put_around(char* out, std::size_t body_size) const {
@@ -99,9 +106,10 @@ struct Dress {
         if (digits > 2) *at++ = static_cast<char>('0' + sum / 100);
         if (digits > 1) *at++ = static_cast<char>('0' + sum / 10 % 10);
         if (digits > 0) *at++ = static_cast<char>('0' + sum % 10);
-        put(at, line_end);
+        put(at, end);
     }
 
+    std::string_view end;
     std::size_t head;
     std::size_t digits = 0;
     std::size_t size;
@@ -123,15 +131,16 @@ std::size_t frame_head(FrameStyle style) {
     return style == FrameStyle::bare ? 0 : prefix.size();
 }
 
-std::size_t dress_frame(std::span<char> out, std::size_t body_size, unsigned body_sum, FrameStyle style) {
-    const Dress dress(body_size, body_sum, style);
+std::size_t dress_frame(std::span<char> out, std::size_t body_size, unsigned body_sum, FrameStyle style,
+                        LineEnd end) {
+    const Dress dress(body_size, body_sum, style, end);
     if (dress.size > out.size()) return 0;
     dress.put_around(out.data(), body_size);
     return dress.size;
 }
 
 std::size_t write_frame(std::span<char> out, std::string_view body, FrameStyle style) {
-    const Dress dress(body.size(), xor_checksum(body), style);
+    const Dress dress(body.size(), xor_checksum(body), style, LineEnd::crlf);
     if (dress.size > out.size()) return 0;
     put(out.data() + dress.head, body);
     dress.put_around(out.data(), body.size());

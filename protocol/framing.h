@@ -23,13 +23,16 @@ std::uint8_t xor_checksum(std::string_view bytes);
 /// Longest line taken, in bytes, line end and NULs not counted: Smartto's own checksum loop stops at 512.
 inline constexpr std::size_t max_line_bytes = 512;
 
-/// How a line is dressed for the wire. Every line ends in CR LF.
+/// How a line is dressed for the wire.
 enum class FrameStyle : std::uint8_t {
     framed,     ///< "N-0 body*XOR"
     bare,       ///< "body": what an A30 screen sends, and the board's "SD printing byte 0/0"
     star_only,  ///< "N-0 body*": a real A30T's "L14 Pausing... please try again later."
     unfinished  ///< "N-0 body": a real A30T's "L14 file select succeed!:..."
 };
+
+/// What a line ends with. Smartto's all end in CR LF; a ChiTu board ends its M4002 with LF alone.
+enum class LineEnd : std::uint8_t { crlf, lf, none };
 
 /// Writes one wire line to the start of `out` and returns its length in bytes, or 0 and leaves `out` alone
 /// when it does not fit. `body` holds no CR, LF or NUL: they would end or spoil the line, and are not looked
@@ -41,7 +44,8 @@ std::size_t frame_head(FrameStyle style);
 
 /// As write_frame(), for a body that stands in `out` already, frame_head() bytes from its start, and whose
 /// bytes XOR to `body_sum`.
-std::size_t dress_frame(std::span<char> out, std::size_t body_size, unsigned body_sum, FrameStyle style);
+std::size_t dress_frame(std::span<char> out, std::size_t body_size, unsigned body_sum, FrameStyle style,
+                        LineEnd end = LineEnd::crlf);
 
 /// What write_frame() writes, as a string, for tests and tools.
 std::string frame(std::string_view body, FrameStyle style = FrameStyle::framed);

@@ -27,6 +27,7 @@ void add_decode(CLI::App& app, ExitCode& exit);
 void add_ctl(CLI::App& app, ExitCode& exit);
 void add_check(CLI::App& app, ExitCode& exit);
 void add_describe(CLI::App& app, ExitCode& exit);
+void add_sliced(CLI::App& app, ExitCode& exit);
 void add_ports(CLI::App& app, ExitCode& exit);
 void add_profiles(CLI::App& app, ExitCode& exit);
 

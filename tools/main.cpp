@@ -92,6 +92,7 @@ int run_app(int argc, char** argv) {
     add_ctl(app, exit);
     add_check(app, exit);
     add_describe(app, exit);
+    add_sliced(app, exit);
     add_ports(app, exit);
     add_profiles(app, exit);
     app.footer(examples);  // last, since the subcommands made before inherit none of it

@@ -7,6 +7,7 @@
 #include "emulator/behaviour/notice.h"
 #include "emulator/behaviour/value.h"
 #include "emulator/printer/printer.h"
+#include "protocol/command.h"
 
 namespace fauxboard::behaviour {
 
@@ -15,6 +16,7 @@ struct ActionContext {
     printer::Printer& printer;
     std::span<double> variables;  ///< the profile's own
     NoticeSink& notices;
+    const protocol::Command* command = nullptr;  ///< the request that is carried out; null in events
     bool reset = false;  ///< set by board.reset; the board restarts when the rule is done
 };
 

@@ -30,6 +30,9 @@ void each_line(std::string_view image, F&& use) {
 
 void append_value(std::string& out, const Field& field, const printer::Printer& printer) {
     const Value value = field.get(printer);
+    if (value.none()) {
+        return;  // of a part that this machine has not
+    }
     out += field.path;
     out += ' ';
     if (value.is_text()) {

@@ -85,6 +85,7 @@ constexpr Field handled(std::string_view path, FieldType type, std::string_view 
 std::span<const Field> machine_fields();
 std::span<const Field> settings_fields();
 std::span<const Field> device_fields();
+std::span<const Field> resin_fields();
 std::span<const Field> fault_fields();
 
 }  // namespace fauxboard::behaviour::rows

@@ -16,7 +16,8 @@ const std::vector<Field>& all() {
     static const std::vector<Field> table = [] {
         std::vector<Field> rows;
         for (const auto part :
-             {rows::machine_fields(), rows::settings_fields(), rows::device_fields(), rows::fault_fields()}) {
+             {rows::machine_fields(), rows::settings_fields(), rows::device_fields(), rows::fault_fields(),
+              rows::resin_fields()}) {
             rows.insert(rows.end(), part.begin(), part.end());
         }
         return rows;
@@ -69,7 +70,7 @@ SetResult set_field(printer::Printer& printer, const Field& field, const Value& 
         return SetResult::refused;
     }
     if (field.type == FieldType::text) {
-        if (!value.is_text()) {
+        if (!value.is_text() || field.get(printer).none()) {
             return SetResult::refused;
         }
         const auto room = static_cast<std::size_t>(field.max);
@@ -77,7 +78,7 @@ SetResult set_field(printer::Printer& printer, const Field& field, const Value& 
         field.set(printer, Value::of(value.text.substr(0, room)));
         return cut ? SetResult::clamped : SetResult::done;
     }
-    if (!value.is_number() || !std::isfinite(value.number)) {
+    if (!value.is_number() || !std::isfinite(value.number) || field.get(printer).none()) {
         return SetResult::refused;
     }
     const double inside = std::clamp(value.number, field.min, field.max);

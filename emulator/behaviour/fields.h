@@ -22,7 +22,7 @@ struct Field {
     double max;
     bool stored;  ///< part of the EEPROM image
     std::string_view help;
-    Value (*get)(const printer::Printer&);
+    Value (*get)(const printer::Printer&);         ///< nothing on a machine without this part
     void (*set)(printer::Printer&, const Value&);  ///< null: read only
 };
 
@@ -36,7 +36,8 @@ const Field* find_field(std::string_view path);
 std::string_view nearest_field(std::string_view path);
 
 enum class SetResult : std::uint8_t { done, clamped, refused };
-/// Puts `value` into the field, within its bounds. Refused: read only, wrong kind, or not a finite number.
+/// Puts `value` into the field, within its bounds. Refused: read only, wrong kind, not a finite
+/// number, or no such part in this machine.
 SetResult set_field(printer::Printer& printer, const Field& field, const Value& value);
 
 }  // namespace fauxboard::behaviour

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "emulator/behaviour/field_rows.h"
 
@@ -22,6 +23,12 @@ constexpr std::array table{
           [](const Printer& p) { return p.storage.usable(p.storage.chosen()); }),
     shown("card.chosen", integer, "", "disk chosen by M2115: 0 SD card, 1 U-disk",
           [](const Printer& p) { return p.storage.chosen(); }),
+    shown("card.entries", integer, "", "entries of the folder shown",
+          [](const Printer& p) {
+              std::vector<printer::CardEntry> entries;
+              p.storage.listing(entries, p.config().card.max_listed);
+              return entries.size();
+          }),
     shown("card.folder", text, "", "folder shown, empty at the root",
           [](const Printer& p) { return std::string_view{p.storage.folder()}; }),
 

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t copied_at_once = 16;
 
 /// Copies a text, making control characters visible instead of active.
-Written copy_text(std::string_view text, std::span<char> out, bool lower) {
+Written copy_text(std::string_view text, std::span<char> out, bool lower, bool upper) {
     Written written{std::min(text.size(), out.size()), 0};
     for (std::size_t i = 0; i < written.size; ++i) {
         char c = text[i];
@@ -21,6 +21,8 @@ Written copy_text(std::string_view text, std::span<char> out, bool lower) {
             c = '?';
         } else if (lower && c >= 'A' && c <= 'Z') {
             c = static_cast<char>(c - 'A' + 'a');
+        } else if (upper && c >= 'a' && c <= 'z') {
+            c = static_cast<char>(c - 'a' + 'A');
         }
         out[i] = c;
         written.sum ^= static_cast<unsigned char>(c);
@@ -69,8 +71,9 @@ void FrameTemplate::add_literal(std::string_view text) {
     if (text.empty()) {
         return;
     }
-    const bool control =
-        std::any_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; });
+    // A NUL ends no line, and boards do send them.
+    const bool control = std::any_of(
+        text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 && c != '\0'; });
     if (control) {
         throw ExpressionError("a control character in a frame; line ends are added by the framing", {});
     }
@@ -101,8 +104,8 @@ void FrameTemplate::add_value(std::string_view inside, const Names& names) {
         part.decimals = format[1] - '0';
     } else if (format == "d") {
         part.style = Style::whole;
-    } else if (format == "s" || format == "lower") {
-        part.style = format == "s" ? Style::text : Style::lower;
+    } else if (format == "s" || format == "lower" || format == "upper") {
+        part.style = format == "s" ? Style::text : format == "lower" ? Style::lower : Style::upper;
     } else if (format.empty()) {
         if (needs_format(part.operand)) {
             throw ExpressionError("{" + std::string(inside) + "} is a number and needs a format, such as {" +
@@ -112,10 +115,11 @@ void FrameTemplate::add_value(std::string_view inside, const Names& names) {
         part.style = part.operand.is_text() ? Style::text : Style::whole;
     } else {
         throw ExpressionError("unknown format \"" + std::string(format) + "\" in {" + std::string(inside) +
-                                  "}; expected .0f to .6f, d, s or lower",
+                                  "}; expected .0f to .6f, d, s, lower or upper",
                               {});
     }
-    const bool text_style = part.style == Style::text || part.style == Style::lower;
+    const bool text_style =
+        part.style == Style::text || part.style == Style::lower || part.style == Style::upper;
     if (text_style != part.operand.is_text()) {
         throw ExpressionError("{" + std::string(inside) + "} is " + (text_style ? "a number" : "a text") +
                                   " and cannot be written with the format \"" + std::string(format) + "\"",
@@ -137,7 +141,8 @@ Written FrameTemplate::render(const Scope& scope, std::span<char> out, bool& cut
             continue;
         }
         if (value.is_text()) {
-            const Written text = copy_text(value.text, room, part.style == Style::lower);
+            const Written text =
+                copy_text(value.text, room, part.style == Style::lower, part.style == Style::upper);
             cut = cut || text.size < value.text.size();
             line += text;
             continue;

@@ -15,8 +15,9 @@ namespace fauxboard::behaviour {
 /// A line with places for values, compiled when the profile loads: "L1 X{position.x:.3f} F{motion.feed:d}".
 ///
 /// Between braces stands a reference (see parse_reference) and, after a colon, a format: `.1f` decimals, `d`
-/// a whole number (cut off, as the firmware's casts do), `s` text, `lower` text in small letters. `{{` and
-/// `}}` are braces. A number with decimals must name its format; whole numbers, booleans and texts need none.
+/// a whole number (cut off, as the firmware's casts do), `s` text, `lower` text in small letters, `upper` in
+/// capitals. `{{` and `}}` are braces. A number with decimals must name its format; whole numbers, booleans
+/// and texts need none.
 class FrameTemplate {
   public:
     FrameTemplate() = default;
@@ -28,7 +29,7 @@ class FrameTemplate {
     Written render(const Scope& scope, std::span<char> out, bool& cut) const;
 
   private:
-    enum class Style : std::uint8_t { literal, fixed, whole, text, lower };
+    enum class Style : std::uint8_t { literal, fixed, whole, text, lower, upper };
     struct Part {
         Style style = Style::literal;
         std::uint8_t sum = 0;  ///< literal: XOR of its bytes

@@ -343,10 +343,34 @@ void load_card(const Json& node, const std::string& pointer, Findings& findings,
     ObjectReader reader(node, pointer, findings);
     reader.boolean("present", out.present);
     reader.unsigned_integer("max_listed", out.max_listed, 1, 1000);
+    reader.boolean("way_back", out.way_back);
+    reader.boolean("ignore_case", out.ignore_case);
     if (const Json* entries = reader.get("entries")) {
         std::size_t count = 0;
         out.entries.clear();
         load_entries(*entries, reader.pointer("entries"), findings, out.entries, count);
+    }
+    reader.finish();
+}
+
+void load_resin(const Json& node, const std::string& pointer, Findings& findings, printer::ResinConfig& out) {
+    ObjectReader reader(node, pointer, findings);
+    reader.number("travel_mm", out.travel_mm, 1, 2000);
+    reader.number("power_on_mm", out.power_on_mm, 0, 2000);
+    reader.number("homing_bounce_mm", out.homing_bounce_mm, 0, 100);
+    reader.number("pause_lift_mm", out.pause_lift_mm, 0, 2000);
+    reader.number("pause_from_s", out.pause_from_s, 0, 600);
+    reader.number("pause_to_s", out.pause_to_s, 0, 600);
+    reader.number("stick_visible_s", out.stick_visible_s, 0, 600);
+    reader.integer("stir_cycles", out.stir_cycles, 0, 60);
+    if (const Json* status = reader.get("status")) {
+        constexpr std::array<std::string_view, 8> words{"temp",      "other",  "mem",     "communication",
+                                                        "indicator", "driver", "printer", "lcd"};
+        ObjectReader row(*status, reader.pointer("status"), findings);
+        for (std::size_t i = 0; i < words.size(); ++i) {
+            row.unsigned_integer(words[i], out.status[i], 0, 0x7FFFFFFFU);
+        }
+        row.finish();
     }
     reader.finish();
 }
@@ -372,6 +396,9 @@ void load_machine(const Json& node, const std::string& pointer, Findings& findin
         ObjectReader job(*part, reader.pointer("job"), findings);
         job.number("finished_s", machine.job.finished_s, 0, 86400);
         job.finish();
+    }
+    if (const Json* part = reader.get("resin")) {
+        load_resin(*part, reader.pointer("resin"), findings, machine.resin.emplace());
     }
     if (const Json* part = reader.get("host")) {
         ObjectReader host(*part, reader.pointer("host"), findings);

@@ -70,6 +70,8 @@ std::optional<Operand> parse_request_word(std::string_view reference) {
     Operand operand;
     if (reference == "arg") {
         operand.kind = Operand::Kind::argument;
+    } else if (reference == "name") {
+        operand.kind = Operand::Kind::name;
     } else if (reference == "text") {
         operand.kind = Operand::Kind::raw_text;
     } else {
@@ -112,6 +114,8 @@ Value Operand::evaluate_other(const Scope& scope) const {
             return Value::of(static_cast<double>(scope.index));
         case Kind::entry_bytes:
             return scope.entry != nullptr ? Value::of(static_cast<double>(scope.entry->bytes)) : Value{};
+        case Kind::entry_folder:
+            return scope.entry != nullptr ? Value::of(scope.entry->folder ? 1.0 : 0.0) : Value{};
         default:
             break;
     }
@@ -127,6 +131,8 @@ Value Operand::evaluate_other(const Scope& scope) const {
             return Value::of(scope.command->has(letter) ? 1.0 : 0.0);
         case Kind::argument:
             return Value::of(scope.command->argument);
+        case Kind::name:
+            return Value::of(printer::bare_name(scope.command->argument));
         case Kind::raw_text:
             return Value::of(scope.command->text);
         case Kind::keyed: {
@@ -142,6 +148,7 @@ bool Operand::is_text() const {
     switch (kind) {
         case Kind::text:
         case Kind::argument:
+        case Kind::name:
         case Kind::raw_text:
         case Kind::keyed:
         case Kind::entry_name:
@@ -158,13 +165,15 @@ Operand parse_reference(std::string_view reference, const Names& names) {
     if (reference.starts_with("var.")) {
         return parse_variable(reference.substr(4), names);
     }
-    if (reference == "entry.name" || reference == "entry.index" || reference == "entry.bytes") {
+    if (reference == "entry.name" || reference == "entry.index" || reference == "entry.bytes" ||
+        reference == "entry.folder") {
         if (!names.loop) {
             throw ExpressionError(quoted(reference) + " is known only inside `for_each`", {});
         }
         operand.kind = reference == "entry.name"    ? Operand::Kind::entry_name
                        : reference == "entry.index" ? Operand::Kind::entry_index
-                                                    : Operand::Kind::entry_bytes;
+                       : reference == "entry.bytes" ? Operand::Kind::entry_bytes
+                                                    : Operand::Kind::entry_folder;
         return operand;
     }
     if (const auto word = parse_request_word(reference)) {

@@ -28,7 +28,7 @@ struct Scope {
 struct Names {
     std::map<std::string, std::size_t, std::less<>> variables;
     bool request = false;  ///< parameters of a request may be used
-    bool loop = false;     ///< entry.name, entry.index and entry.bytes may be used
+    bool loop = false;     ///< entry.name, entry.index, entry.bytes and entry.folder may be used
 };
 
 /// A wrong expression. `what()` says what was found and expected; `nearest` is the known name most like it.
@@ -49,11 +49,13 @@ struct Operand {
         parameter,  ///< {S}: the number after S
         presence,   ///< {S?}: 1 when S stands on the line
         argument,   ///< {arg}: everything after the code, blanks trimmed
+        name,       ///< {name}: the same without quotes and the colon of an absolute path
         raw_text,   ///< {text}: everything after the code, leading blank included
         keyed,      ///< {FW:}: the word after "FW:"
         entry_name,
         entry_index,
         entry_bytes,
+        entry_folder,
     };
     Kind kind = Kind::none;
     char letter = 0;

@@ -31,10 +31,16 @@ void CodeTable::enter(std::size_t index) {
 
 const std::vector<Rule>* Profile::find(const RequestTable& table, const protocol::Command& command) {
     if (command.letter != 0) {
-        return table.codes.find(code_key(command.letter, command.number));
+        const std::vector<Rule>* rules = table.codes.find(code_key(command.letter, command.number));
+        return rules != nullptr ? rules : table.any();
     }
     const auto hit = table.words.find(command.word);
-    return hit == table.words.end() ? nullptr : &hit->second;
+    return hit == table.words.end() ? table.any() : &hit->second;
+}
+
+const std::vector<Rule>* Profile::RequestTable::any() const {
+    const auto hit = words.find(any_request);
+    return hit == words.end() ? nullptr : &hit->second;
 }
 
 }  // namespace fauxboard::behaviour

@@ -46,9 +46,11 @@ struct Frame {
     struct Line {
         FrameTemplate text;
         bool for_each_entry = false;  ///< once per entry of the card's listing
+        std::vector<Condition> when;  ///< of these entries only
     };
     std::string name;
     protocol::FrameStyle style = protocol::FrameStyle::framed;
+    protocol::LineEnd end = protocol::LineEnd::crlf;
     std::optional<Channel> to;  ///< nothing: the channel that asked; the main line, if nobody asked
     std::vector<Line> lines;
     std::vector<ActionCall> then;  ///< done when it is queued
@@ -136,7 +138,10 @@ class Profile {
     }
 
     struct RequestTable {
-        CodeTable codes;  ///< by code_key
+        /// The key of the rules for all that has none of its own.
+        static constexpr std::string_view any_request = "*";
+        const std::vector<Rule>* any() const;  ///< null: there are none
+        CodeTable codes;                       ///< by code_key
         std::map<std::string, std::vector<Rule>, std::less<>> words;
     };
     RequestTable requests;

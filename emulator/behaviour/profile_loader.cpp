@@ -43,6 +43,7 @@ class Loader {
     Names names_;
     Names request_names_;
     FrameIndex frame_index_;
+    protocol::FrameStyle style_{};  ///< of frames that do not say theirs
     std::shared_ptr<Profile> profile_ = std::make_shared<Profile>();
     std::shared_ptr<printer::MachineConfig> machine_ = std::make_shared<printer::MachineConfig>();
 };
@@ -56,6 +57,7 @@ void Loader::load_head(ObjectReader& root) {
     std::size_t protocol = 0;
     root.required("protocol");
     root.choice("protocol", protocols, protocol);
+    style_ = protocol == 0 ? protocol::FrameStyle::framed : protocol::FrameStyle::bare;
     profile_->line.framing = static_cast<Framing>(protocol);
     if (const Json* line = root.get("line")) {
         load_line(*line, root.pointer("line"));
@@ -159,6 +161,12 @@ void Loader::load_frame_lines(const Json& node, const std::string& pointer, Fram
             if (const Json* text = reader.get("line")) {
                 line.text = compile(*text, reader.pointer("line"), true);
             }
+            if (const Json* when = reader.get("when")) {
+                Names names = request_names_;
+                names.loop = true;
+                line.when = RuleCompiler(findings_, names, frame_index_, *machine_)
+                                .conditions(*when, reader.pointer("when"));
+            }
             line.for_each_entry = true;
             reader.finish();
         } else {
@@ -169,15 +177,20 @@ void Loader::load_frame_lines(const Json& node, const std::string& pointer, Fram
 }
 
 void Loader::load_frame(const Json& node, const std::string& pointer, Frame& frame) {
+    frame.style = style_;
     if (!node.is_object()) {
-        frame.lines.push_back({compile(node, pointer, false), false});
+        frame.lines.push_back({compile(node, pointer, false), false, {}});
         return;
     }
     ObjectReader reader(node, pointer, findings_);
     constexpr std::array<std::string_view, 4> styles{"framed", "bare", "star_only", "unfinished"};
-    std::size_t style = 0;
+    auto style = static_cast<std::size_t>(frame.style);
     reader.choice("style", styles, style);
     frame.style = static_cast<protocol::FrameStyle>(style);
+    constexpr std::array<std::string_view, 3> ends{"crlf", "lf", "none"};
+    std::size_t end = 0;
+    reader.choice("end", ends, end);
+    frame.end = static_cast<protocol::LineEnd>(end);
     constexpr std::array<std::string_view, channel_count> channels{"main", "host", "network"};
     std::size_t to = channels.size();
     reader.choice("to", channels, to);
@@ -189,7 +202,7 @@ void Loader::load_frame(const Json& node, const std::string& pointer, Frame& fra
     if ((text == nullptr) == (lines == nullptr)) {
         findings_.add(pointer, "expected either \"line\" or \"lines\"");
     } else if (text != nullptr) {
-        frame.lines.push_back({compile(*text, reader.pointer("line"), false), false});
+        frame.lines.push_back({compile(*text, reader.pointer("line"), false), false, {}});
     } else {
         load_frame_lines(*lines, reader.pointer("lines"), frame);
     }

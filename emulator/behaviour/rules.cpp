@@ -86,6 +86,7 @@ void run_action(const ActionCall& call, const Scope& scope, const std::vector<Va
         assign(call, scope, variables, context);
         return;
     }
+    context.command = scope.command;
     const std::size_t count = call.args.size();
     std::array<Value, 2> few;  // clearing room for the most there can be would cost more than the action
     if (count <= few.size()) {

@@ -159,16 +159,18 @@ void Board::take_line(Channel channel, std::string_view line) {
     }
     std::string_view body;
     bool bad = false;
+    bool ticks = true;
     if (profile_->line.framing == behaviour::Framing::smartto) {
         const protocol::Unframed unframed = protocol::unframe(line, profile_->line.checksum);
         body = unframed.body;
         bad = unframed.fault != protocol::FrameFault::none;
+        ticks = is_code(body);
     } else {
         body = protocol::unframe_host_line(line).body;
     }
     Verdict verdict = Verdict::accepted;
     const bool paced = options_.pacing && channel == Channel::main;
-    const bool waits = paced ? is_code(body) : port(channel).output.size() >= output_limit;
+    const bool waits = paced ? ticks : port(channel).output.size() >= output_limit;
     if (machine_.hung()) {
         ++counters_.requests_lost;
         verdict = Verdict::queue_full;
@@ -332,7 +334,7 @@ void Board::compose_line(const Frame& frame, const behaviour::FrameTemplate& tex
         return;  // no room for the line: it is left out
     }
     counters_.lines_cut += cut ? 1 : 0;
-    const std::size_t size = protocol::dress_frame(room, body.size, body.sum, frame.style);
+    const std::size_t size = protocol::dress_frame(room, body.size, body.sum, frame.style, frame.end);
     draft.size += size;
     draft.lines += size != 0 ? 1 : 0;
 }
@@ -347,7 +349,9 @@ void Board::compose(const Frame& frame, const Scope& here, Draft& draft) {
         Scope inside = here;
         for (const printer::CardEntry& entry : machine_.listing()) {
             inside.entry = &entry;
-            compose_line(frame, line.text, inside, std::max(draft.size, end - closing_room), draft);
+            if (behaviour::all_hold(line.when, inside)) {
+                compose_line(frame, line.text, inside, std::max(draft.size, end - closing_room), draft);
+            }
             ++inside.index;
         }
     }
@@ -362,10 +366,10 @@ void Board::emit(std::string_view message) {
 
 void Board::tell_sent(Channel channel, std::string_view message) {
     while (options_.observer != nullptr && !message.empty()) {
-        const std::size_t end = std::min(message.find('\n'), message.size() - 1);
+        const std::size_t end = std::min(message.find('\n'), message.size());
         const std::string_view line = message.substr(0, end);
         options_.observer->on_sent(time_, channel, line.substr(0, line.find_last_not_of("\r\n") + 1));
-        message.remove_prefix(end + 1);
+        message.remove_prefix(std::min(end + 1, message.size()));
     }
 }
 
@@ -401,8 +405,7 @@ SimTime Board::nothing_before() const {
 /// Goes through the slots before `end`. Those passed over because nothing could come of them are among them,
 /// for their rounds to count.
 void Board::run_slots(SimTime end) {
-    while (!machine_.hung() && wheel_.next_slot() < end &&
-           port(Channel::main).output.size() < output_limit) {
+    while (!machine_.hung() && wheel_.next_slot() < end && port(Channel::main).output.size() < output_limit) {
         const behaviour::Slot* slot = wheel_.turn(scope());
         if (slot != nullptr) {
             Send entry;

@@ -10,9 +10,10 @@
 namespace fauxboard::fault {
 namespace {
 
-constexpr std::array<const Kind*, 11> table{
-    &rows::drop,  &rows::garble,    &rows::duplicate,      &rows::delay,   &rows::slow,       &rows::cut,
-    &rows::merge, &rows::nul_burst, &rows::wrong_checksum, &rows::silence, &rows::disconnect,
+constexpr std::array<const Kind*, 12> table{
+    &rows::drop,    &rows::garble,     &rows::duplicate, &rows::delay,    &rows::slow,
+    &rows::cut,     &rows::merge,      &rows::nul_burst, &rows::stray_ok, &rows::wrong_checksum,
+    &rows::silence, &rows::disconnect,
 };
 
 constexpr double most_lines = 1e9;

@@ -57,6 +57,10 @@ printer::Volume::Kind look_at(int folder, const std::string& name, std::uint64_t
     return ::faccessat(folder, name.c_str(), R_OK, AT_EACCESS) == 0 ? Kind::file : Kind::unreadable;
 }
 
+bool is_file(printer::Volume::Kind kind) {
+    return kind == printer::Volume::Kind::file || kind == printer::Volume::Kind::unreadable;
+}
+
 std::vector<std::string> read_names(DIR* folder) {
     std::vector<std::string> names;
     while (const dirent* entry = names.size() < max_names ? ::readdir(folder) : nullptr) {
@@ -128,29 +132,33 @@ bool FolderCard::list(std::string_view folder, std::vector<CardEntry>& out) cons
     return true;
 }
 
-printer::Volume::Kind FolderCard::look(std::string_view path, std::uint64_t& bytes) const {
-    bytes = 0;
+UniqueFd FolderCard::open_parent(std::string_view path, std::string& name) const {
     const std::size_t slash = path.rfind('/');
-    const std::string name(slash == std::string_view::npos ? path : path.substr(slash + 1));
-    const UniqueFd folder =
-        open_folder(slash == std::string_view::npos ? std::string_view{} : path.substr(0, slash));
-    if (path.empty()) {
-        return folder ? Kind::folder : Kind::missing;
-    }
-    return folder && usable_name(name) ? look_at(folder.get(), name, bytes) : Kind::missing;
+    name = slash == std::string_view::npos ? path : path.substr(slash + 1);
+    return usable_name(name)
+               ? open_folder(slash == std::string_view::npos ? std::string_view{} : path.substr(0, slash))
+               : UniqueFd{};
 }
 
-UniqueFd FolderCard::open_file(std::string_view path) const {
-    const std::size_t slash = path.rfind('/');
-    const std::string name(slash == std::string_view::npos ? path : path.substr(slash + 1));
-    const UniqueFd folder =
-        open_folder(slash == std::string_view::npos ? std::string_view{} : path.substr(0, slash));
-    if (!folder || !usable_name(name)) {
+printer::Volume::Kind FolderCard::look(std::string_view path, std::uint64_t& bytes) const {
+    bytes = 0;
+    if (path.empty()) {
+        return open_root() ? Kind::folder : Kind::missing;
+    }
+    std::string name;
+    const UniqueFd folder = open_parent(path, name);
+    return folder ? look_at(folder.get(), name, bytes) : Kind::missing;
+}
+
+UniqueFd FolderCard::open_file(std::string_view path, int flags) const {
+    std::string name;
+    const UniqueFd folder = open_parent(path, name);
+    if (!folder) {
         return {};
     }
     // O_NONBLOCK: a pipe that took the file's place meanwhile must not keep us waiting.
     UniqueFd file(
-        ::openat(folder.get(), name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
+        ::openat(folder.get(), name.c_str(), flags | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
     struct stat info {};
     const bool regular = file && ::fstat(file.get(), &info) == 0 && S_ISREG(info.st_mode);
     return regular ? std::move(file) : UniqueFd{};
@@ -158,7 +166,7 @@ UniqueFd FolderCard::open_file(std::string_view path) const {
 
 std::optional<std::size_t> FolderCard::read(std::string_view path, std::uint64_t offset,
                                             std::span<char> out) const {
-    const UniqueFd file = open_file(path);
+    const UniqueFd file = open_file(path, O_RDONLY);
     if (!file || offset > static_cast<std::uint64_t>(std::numeric_limits<off_t>::max())) {
         return std::nullopt;
     }
@@ -167,6 +175,68 @@ std::optional<std::size_t> FolderCard::read(std::string_view path, std::uint64_t
         got = ::pread(file.get(), out.data(), out.size(), static_cast<off_t>(offset));
     } while (got < 0 && errno == EINTR);
     return got < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(got));
+}
+
+bool FolderCard::create(std::string_view path) {
+    std::string name;
+    const UniqueFd folder = open_parent(path, name);
+    if (!folder) {
+        return false;
+    }
+    // A file of that name goes first: emptying it would reach through a hard link to what is outside.
+    constexpr int flags = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
+    std::uint64_t bytes = 0;
+    if (is_file(look_at(folder.get(), name, bytes)) && ::unlinkat(folder.get(), name.c_str(), 0) != 0) {
+        return false;
+    }
+    return static_cast<bool>(UniqueFd(::openat(folder.get(), name.c_str(), flags, 0666)));
+}
+
+bool FolderCard::append(std::string_view path, std::uint64_t offset, std::string_view bytes) {
+    const UniqueFd file = open_file(path, O_WRONLY);
+    struct stat info {};
+    if (!file || ::fstat(file.get(), &info) != 0 || static_cast<std::uint64_t>(info.st_size) != offset) {
+        return false;
+    }
+    off_t at = info.st_size;
+    while (!bytes.empty()) {
+        const ssize_t put = ::pwrite(file.get(), bytes.data(), bytes.size(), at);
+        if (put < 0 && errno == EINTR) {
+            continue;
+        }
+        if (put <= 0) {
+            // Full, mostly. What fitted of this piece goes again; were even that refused, the size would
+            // tell.
+            return ::ftruncate(file.get(), info.st_size) == 0 && false;
+        }
+        at += put;
+        bytes.remove_prefix(static_cast<std::size_t>(put));
+    }
+    return true;
+}
+
+bool FolderCard::rename(std::string_view from, std::string_view to) {
+    std::string old_name;
+    std::string new_name;
+    const UniqueFd old_folder = open_parent(from, old_name);
+    const UniqueFd new_folder = open_parent(to, new_name);
+    std::uint64_t bytes = 0;
+    if (!old_folder || !new_folder || !is_file(look_at(old_folder.get(), old_name, bytes))) {
+        return false;
+    }
+    // Something else of that name is not shown, and must stay.
+    struct stat info {};
+    const bool taken = ::fstatat(new_folder.get(), new_name.c_str(), &info, AT_SYMLINK_NOFOLLOW) == 0;
+    return !(taken && !S_ISREG(info.st_mode)) &&
+           ::renameat(old_folder.get(), old_name.c_str(), new_folder.get(), new_name.c_str()) == 0;
+}
+
+bool FolderCard::remove(std::string_view path) {
+    std::string name;
+    std::uint64_t bytes = 0;
+    const UniqueFd folder = open_parent(path, name);
+    return folder && is_file(look_at(folder.get(), name, bytes)) &&
+           ::unlinkat(folder.get(), name.c_str(), 0) == 0;
 }
 
 }  // namespace fauxboard::host

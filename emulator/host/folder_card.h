@@ -26,11 +26,20 @@ class FolderCard final : public printer::Volume {
     /// Looks the file up anew each time, so one that vanished, or became something else, is nothing.
     std::optional<std::size_t> read(std::string_view path, std::uint64_t offset,
                                     std::span<char> out) const override;
+    // As Volume says. Nothing but regular files is ever made, changed or removed: no symlink is followed or
+    // replaced, in no part of the path.
+    bool create(std::string_view path) override;
+    bool append(std::string_view path, std::uint64_t offset, std::string_view bytes) override;
+    bool rename(std::string_view from, std::string_view to) override;
+    bool remove(std::string_view path) override;
 
   private:
     link::UniqueFd open_root() const;
     link::UniqueFd open_folder(std::string_view path) const;
-    link::UniqueFd open_file(std::string_view path) const;
+    link::UniqueFd open_file(std::string_view path, int flags) const;
+    /// The folder that holds `path`, which `name` is then the last part of; no descriptor for a name that
+    /// cannot be.
+    link::UniqueFd open_parent(std::string_view path, std::string& name) const;
 
     std::string root_;
 };

@@ -67,6 +67,8 @@ constexpr std::array<EventInfo, event_count> table{{
     {EventId::host_no_number, "host.no_number", "a line of the USB side has a checksum and no number"},
     {EventId::power_lost, "power.lost",
      "the supply breaks down; there is still time to store what must be kept"},
+    {EventId::job_layer_done, "job.layer_done", "a layer of a resin print has been exposed"},
+    {EventId::board_reboot_due, "board.reboot_due", "the time that board.reboot was given has passed"},
 }};
 
 consteval bool ordered() {

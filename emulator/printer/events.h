@@ -60,6 +60,8 @@ enum class EventId : std::uint8_t {
     host_no_checksum,
     host_no_number,
     power_lost,
+    job_layer_done,
+    board_reboot_due,
     count_  // not an event
 };
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "emulator/printer/events.h"
+#include "emulator/printer/resin_config.h"
 #include "emulator/printer/sim_time.h"
 #include "emulator/printer/thermal_config.h"
 
@@ -81,6 +82,8 @@ struct BuiltInEntry {
 
 struct CardConfig {
     bool present = true;
+    bool way_back = true;      ///< the list of a folder begins with the way back to its parent
+    bool ignore_case = false;  ///< names are found whatever their case, as on a FAT disk
     unsigned max_listed = 64;  ///< entries told in one list; the A30 screen's table ends at 64
     std::vector<BuiltInEntry> entries;
 };
@@ -104,6 +107,7 @@ struct MachineConfig {
     FilamentConfig filament;
     CardConfig card;
     JobConfig job;
+    std::optional<ResinConfig> resin;  ///< a resin printer; nothing: one that melts filament
     HostConfig host;
     bool udisk_port = false;
     int board_fan_percent = 50;

@@ -26,9 +26,13 @@ Printer::Printer(std::shared_ptr<const MachineConfig> config, Services services,
         built_in_.emplace(config_->card.entries);
     }
     recovery.load(services_.job_place);
-    insert_card(0);
+    storage.configure(config_->card.way_back, config_->card.ignore_case);
+    if (config_->resin) {
+        resin = std::make_unique<Resin>(*this);
+    }
+    put_in(0);
     if (config_->udisk_port) {
-        insert_card(1);
+        put_in(1);
     }
     events.clear();
 }
@@ -60,6 +64,9 @@ void Printer::power_on(SimTime now) {
     host_heard_.reset();
     stall_ = SimTime{0};
     card_check_ = storage.usable(0) ? never : now + card_check_delay;
+    if (resin) {
+        resin->power_on(now);
+    }
 }
 
 void Printer::advance(SimTime now) {
@@ -81,7 +88,7 @@ void Printer::advance(SimTime now) {
             card_check_ = never;
             events.raise(EventId::card_missing);
         }
-        runner.advance(next);
+        resin ? resin->advance(next) : runner.advance(next);
         host.advance(next);
         recovery.advance(next);
         motion.start_stream(next);
@@ -100,14 +107,16 @@ SimTime Printer::next_event() const {
     if (hung_) {
         return breakdowns.next_event();
     }
-    return std::min({motion.next_event(), feeder.next_event(), wait.next_event(), runner.next_event(),
-                     host.next_event(), recovery.next_event(), card_check_, thermal.next_alarm_check(),
+    return std::min({motion.next_event(), feeder.next_event(), wait.next_event(),
+                     (resin ? resin->next_event() : runner.next_event()), host.next_event(),
+                     recovery.next_event(), card_check_, thermal.next_alarm_check(),
                      breakdowns.next_event()});
 }
 
 bool Printer::restless() const {
-    return !hung_ && (motion.busy() || feeder.mode() != Feeder::Mode::idle || wait.active() ||
-                      !thermal.settled() || job.status() == JobStatus::printing);
+    return !hung_ &&
+           (motion.busy() || feeder.mode() != Feeder::Mode::idle || wait.active() || !thermal.settled() ||
+            job.status() == JobStatus::printing || (resin && resin->restless()));
 }
 
 void Printer::emit_after_motion() {
@@ -176,6 +185,18 @@ void Printer::insert_card(int disk) {
     if (disk == 1 && !config_->udisk_port) {
         return;
     }
+    if (disk == 0 && resin) {
+        resin->put_stick_in(now_);
+        return;
+    }
+    put_in(disk);
+}
+
+void Printer::mount_stick() {
+    put_in(0);
+}
+
+void Printer::put_in(int disk) {
     Volume* volume = disk == 1 ? services_.udisk : services_.sd;
     if (volume == nullptr && disk == 0 && built_in_) {
         volume = &*built_in_;
@@ -189,6 +210,9 @@ void Printer::insert_card(int disk) {
 
 void Printer::remove_card(int disk) {
     const bool was_there = storage.usable(disk);
+    if (disk == 0 && resin) {
+        resin->take_stick_out();
+    }
     storage.attach(disk, nullptr);
     if (was_there) {
         events.raise(EventId::card_removed);
@@ -231,7 +255,7 @@ bool Printer::resume_job() {
     if (!job.resume(now_)) {
         return false;
     }
-    runner.resume(now_);
+    resin ? resin->job.resume(now_) : runner.resume(now_);
     events.raise(EventId::job_resumed);
     return true;
 }
@@ -244,8 +268,11 @@ bool Printer::start_or_resume_job() {
         events.raise(EventId::job_refused);
         return true;
     }
+    if (resin && !resin->job.open()) {
+        return false;
+    }
     if (job.start(now_)) {
-        runner.start(now_);
+        resin ? resin->job.start(now_) : runner.start(now_);
         events.raise(EventId::job_started);
         return true;
     }
@@ -253,6 +280,9 @@ bool Printer::start_or_resume_job() {
 }
 
 void Printer::seek_job(double byte) {
+    if (resin) {
+        return;  // its place is a layer's end, and nothing between
+    }
     job.set_byte(byte);
     if (job.active()) {
         runner.seek();
@@ -265,6 +295,10 @@ void Printer::pause_job(bool park) {
         return;
     }
     if (!job.begin_pause()) {
+        return;
+    }
+    if (resin) {
+        resin->pause(now_);
         return;
     }
     runner.pause();
@@ -281,6 +315,9 @@ bool Printer::stop_job() {
     runner.stop();
     recovery.abort();
     recovery.drop();
+    if (resin) {
+        resin->job.stop(now_);
+    }
     motion.abort();
     thermal.set_target(HeaterId::nozzle, 0);
     thermal.set_target(HeaterId::bed, 0);
@@ -291,6 +328,11 @@ bool Printer::stop_job() {
 bool Printer::finish_job() {
     if (!job.finish(now_)) {
         return false;
+    }
+    if (resin) {
+        resin->job.stop(now_);
+        events.raise(EventId::job_finished);
+        return close_job();  // such a board shows no finished print: it is idle at once
     }
     runner.finished(now_);
     recovery.drop();
@@ -319,6 +361,9 @@ void Printer::emergency_stop() {
         recovery.drop();
     }
     runner.stop();
+    if (resin) {
+        resin->job.halt(now_);
+    }
     feeder.power_on();
     wait.cancel(events);
     thermal.set_target(HeaterId::nozzle, 0);

@@ -19,6 +19,7 @@
 #include "emulator/printer/mixer.h"
 #include "emulator/printer/motion.h"
 #include "emulator/printer/recovery.h"
+#include "emulator/printer/resin.h"
 #include "emulator/printer/sim_time.h"
 #include "emulator/printer/state.h"
 #include "emulator/printer/storage.h"
@@ -82,6 +83,8 @@ class Printer {
     void set_filament(bool present);
     void insert_card(int disk);
     void remove_card(int disk);
+    /// The stick that was put into a resin board can be read from now on.
+    void mount_stick();
     /// The disk stays where it is and can no longer be read; insert_card() puts a good one in.
     void fail_card(int disk);
     void select_file(std::string_view name);
@@ -149,6 +152,7 @@ class Printer {
     Steppers steppers;
     Recovery recovery;
     EventQueue events;
+    std::unique_ptr<Resin> resin;  ///< null on boards of other printers
     FilamentPath filament_path;
     Breakdowns breakdowns{*this};
     bool refusing = false;  ///< files are not selected or started, as while a job is under way
@@ -167,6 +171,7 @@ class Printer {
 
   private:
     void emit_after_motion();
+    void put_in(int disk);
     void raise_alarms();
     void follow_filament();
     bool too_cold_to_extrude() const;

@@ -76,6 +76,9 @@ void Printer::hang(bool powered) {
     hung_ = true;
     motion.abort();
     feeder.power_on();
+    if (resin) {
+        resin->axis.abort(now_);
+    }
     thermal.freeze(powered);
 }
 

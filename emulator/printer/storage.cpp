@@ -27,6 +27,33 @@ std::string_view without_volume(std::string_view name) {
     return name;
 }
 
+bool same_letters(std::string_view a, std::string_view b) {
+    const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [&](char x, char y) { return small(x) == small(y); });
+}
+
+/// Spells each part of the path as the disk does. False when it holds no such file or folder.
+bool respell(const Volume& volume, std::string& path) {
+    std::string out;
+    std::vector<CardEntry> entries;
+    for (std::size_t at = 0; at <= path.size();) {
+        const std::size_t slash = std::min(path.find('/', at), path.size());
+        const std::string_view part = std::string_view(path).substr(at, slash - at);
+        at = slash + 1;
+        entries.clear();
+        volume.list(out, entries);
+        const auto hit = std::find_if(entries.begin(), entries.end(),
+                                      [&](const CardEntry& e) { return same_letters(e.name, part); });
+        if (hit == entries.end()) {
+            return false;
+        }
+        out += (out.empty() ? "" : "/") + hit->name;
+    }
+    path = std::move(out);
+    return true;
+}
+
 }  // namespace
 
 bool clean_path(std::string_view folder, std::string_view name, std::string& out) {
@@ -111,7 +138,7 @@ void Storage::listing(std::vector<CardEntry>& out, unsigned limit) const {
     if (!usable(chosen_)) {
         return;
     }
-    if (!folder_.empty()) {
+    if (way_back_ && !folder_.empty()) {
         out.push_back({std::string(way_back) + "/" + std::string(last_part(folder_)), true, 0});
     }
     volumes_[index(chosen_)]->list(folder_, out);  // a folder that vanished meanwhile shows nothing
@@ -138,6 +165,9 @@ Storage::Found Storage::find(std::string_view name) const {
             return false;
         }
         found.kind = volume.look(path, found.bytes);
+        if (found.kind == Volume::Kind::missing && ignore_case_ && respell(volume, path)) {
+            found.kind = volume.look(path, found.bytes);
+        }
         found.kind = found.kind == Volume::Kind::file ? file_trouble_ : found.kind;
         found.path = std::move(path);
         return found.kind != Volume::Kind::missing;
@@ -202,6 +232,31 @@ std::optional<std::size_t> BuiltInVolume::read(std::string_view path, std::uint6
         return 0;
     }
     return entry->content.copy(out.data(), out.size(), static_cast<std::size_t>(offset));
+}
+
+bool Storage::path_for_writing(std::string_view name, std::string& path) const {
+    std::uint64_t bytes = 0;
+    if (!usable(chosen_) || name.ends_with('/') || !clean_path({}, name, path) || path.empty()) {
+        return false;
+    }
+    const Volume::Kind kind = volumes_[index(chosen_)]->look(path, bytes);
+    return kind == Volume::Kind::missing || kind == Volume::Kind::file;
+}
+
+bool Storage::write(std::string_view name, std::string_view bytes) {
+    std::string path;
+    Volume* const disk = volume(chosen_);
+    if (disk == nullptr || !path_for_writing(name, path)) {
+        return false;
+    }
+    const std::string beside = path + std::string(unfinished_ending);
+    return disk->create(beside) && disk->append(beside, 0, bytes) && disk->rename(beside, path);
+}
+
+bool Storage::remove(std::string_view name) {
+    const Found found = find(name);
+    Volume* const disk = volume(chosen_);
+    return found.kind == Volume::Kind::file && disk != nullptr && disk->remove(found.path);
 }
 
 }  // namespace fauxboard::printer

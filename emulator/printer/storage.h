@@ -34,6 +34,18 @@ class Volume {
     /// when there is no such file, or it cannot be read.
     virtual std::optional<std::size_t> read(std::string_view path, std::uint64_t offset,
                                             std::span<char> out) const = 0;
+    // Writing, which not every disk takes: each function says false then, as for all that cannot be done.
+
+    /// Makes an empty file; empties the one that has that name.
+    virtual bool create(std::string_view /*path*/) { return false; }
+    /// Adds `bytes` to the end of a file, which must be at `offset`. The file is as before when it fails.
+    virtual bool append(std::string_view /*path*/, std::uint64_t /*offset*/, std::string_view /*bytes*/) {
+        return false;
+    }
+    /// Gives a file another name. A file that has it already is replaced, whole, in one step.
+    virtual bool rename(std::string_view /*from*/, std::string_view /*to*/) { return false; }
+    /// Removes a file; folders stay.
+    virtual bool remove(std::string_view /*path*/) { return false; }
     /// Whether nothing on it ever changes, so that a listing may be kept.
     virtual bool fixed() const { return false; }
 };
@@ -59,6 +71,12 @@ enum class DiskState : std::uint8_t { ok = 0, removed = 1, failed = 2 };
 class Storage {
   public:
     static constexpr std::size_t disk_count = 2;  // 0 SD card, 1 U-disk
+
+    /// How the board lists and finds; as CardConfig says.
+    void configure(bool way_back, bool ignore_case) {
+        way_back_ = way_back;
+        ignore_case_ = ignore_case;
+    }
 
     void attach(int disk, Volume* volume);  ///< nullptr takes it out
     void set_state(int disk, DiskState state) { states_[index(disk)] = state; }
@@ -93,6 +111,18 @@ class Storage {
     /// What every file is found to be that is there: Kind::file for no trouble, missing or unreadable.
     void set_file_trouble(Volume::Kind kind) { file_trouble_ = kind; }
 
+    /// The same, to write to.
+    Volume* volume(int disk) { return usable(disk) ? volumes_[index(disk)] : nullptr; }
+
+    /// Writes a whole file of the chosen disk, beside and then under its name, so that half a one never
+    /// stands there. False when that cannot be.
+    bool write(std::string_view name, std::string_view bytes);
+    /// Removes a file of the chosen disk. False when there is none, or it cannot be.
+    bool remove(std::string_view name);
+    /// Where a file of this name would be written, below the root. False for a name that cannot be a file's:
+    /// it would leave the root, say, or is a folder's.
+    bool path_for_writing(std::string_view name, std::string& path) const;
+
     /// The disk that listing() would show; nullptr when there is none to show, or when it may change.
     const Volume* fixed_volume() const {
         return usable(chosen_) && volumes_[index(chosen_)]->fixed() ? volumes_[index(chosen_)] : nullptr;
@@ -114,7 +144,12 @@ class Storage {
     Volume::Kind file_trouble_ = Volume::Kind::file;
     int chosen_ = 0;
     std::string folder_;
+    bool way_back_ = true;
+    bool ignore_case_ = false;
 };
+
+/// What stands behind the name of a file that is being written.
+inline constexpr std::string_view unfinished_ending = ".temp";
 
 /// Joins `name` to `folder` and cleans the result: volume names ("SD1:") and double slashes go. False when it
 /// would leave the root, holds a control character, or is longer than 255 bytes.

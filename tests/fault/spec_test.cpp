@@ -70,11 +70,13 @@ TEST_CASE("fifteen wrong specs, fifteen sentences") {
         {"garbel:to_screen",
          "fault \"garbel:to_screen\": unknown kind \"garbel\"; expected one of drop, garble, duplicate, "
          "delay, slow, "
-         "cut, merge, nul_burst, wrong_checksum, silence, disconnect, or a fault of the printer (see "
+         "cut, merge, nul_burst, stray_ok, wrong_checksum, silence, disconnect, or a fault of the printer "
+         "(see "
          "`describe "
          "faults`); did you mean \"garble\"?"},
         {"",
          "fault: found no kind; expected one of drop, garble, duplicate, delay, slow, cut, merge, nul_burst, "
+         "stray_ok, "
          "wrong_checksum, silence, disconnect, or a fault of the printer (see `describe faults`)"},
         {"garble:bit=1",
          "fault \"garble:bit=1\": unknown attribute \"bit\"; garble takes bits, bytes, direction, "
@@ -244,7 +246,7 @@ TEST_CASE("wrong faults of the printer: sentences that say what to do, and no li
 
 TEST_CASE("the reference names every kind and attribute") {
     const Json reference = describe_kinds();
-    CHECK(reference["kinds"].size() == 11);
+    CHECK(reference["kinds"].size() == 12);
     CHECK(reference["common"].size() == 10);
     CHECK(
         reference["kinds"][3] ==

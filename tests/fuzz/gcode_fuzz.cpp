@@ -193,7 +193,8 @@ void Print::step(char letter, std::uint64_t number) {
             board_.world(now_, letter == 'o' ? "card out" : letter == 'i' ? "card in" : "card broken");
             return;
         case 'f':
-            return disk_.remove(std::string(file_name));
+            disk_.remove(file_name);
+            return;
         case 'v':
             return provide(text_.empty() ? 1 : file_bytes_ / text_.size());
         case 'e':

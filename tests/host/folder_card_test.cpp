@@ -272,5 +272,93 @@ TEST_CASE_FIXTURE(Card, "what is no folder is refused at the start") {
     CHECK_THROWS_AS(FolderCard(""), HostError);
 }
 
+std::string text_of(const std::string& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+TEST_CASE_FIXTURE(Card, "writing: made, added to, renamed over another, removed") {
+    folder("sub");
+    file("old.ctb", "old");
+    FolderCard card(root);
+    CHECK(card.create("sub/new.temp"));
+    CHECK(card.append("sub/new.temp", 0, "abc"));
+    CHECK_FALSE(card.append("sub/new.temp", 0, "abc"));  // only at the end
+    CHECK_FALSE(card.append("sub/new.temp", 4, "abc"));
+    CHECK(card.append("sub/new.temp", 3, std::string_view("d\0e", 3)));
+    CHECK(text_of(root + "/sub/new.temp") == std::string("abcd\0e", 6));
+    CHECK(card.rename("sub/new.temp", "old.ctb"));
+    CHECK(text_of(root + "/old.ctb") == std::string("abcd\0e", 6));
+    CHECK(list("sub").empty());
+    CHECK(card.create("old.ctb"));  // emptied
+    CHECK(list() == Names{"old.ctb:0", "sub/"});
+    CHECK(card.remove("old.ctb"));
+    CHECK_FALSE(card.remove("old.ctb"));
+    CHECK(list() == Names{"sub/"});
+}
+
+TEST_CASE_FIXTURE(Card, "writing: names that mean to leave the folder, or are none, write nothing") {
+    folder("sub");
+    file("a.ctb", "a");
+    std::ofstream(outside.file("secret")) << "secret";
+    FolderCard card(root);
+    for (const std::string& name :
+         {std::string(""), std::string("."), std::string(".."), std::string("../made"),
+          std::string("../secret"), std::string("sub/../../made"), std::string("/made"),
+          std::string("//made"), std::string("sub/"), std::string("sub//made"), std::string("./made"),
+          std::string("missing/made"), std::string("a.ctb/made"), std::string("new\nline"),
+          std::string("nul\0x", 5), std::string("\x7F"), std::string(300, 'x'), std::string(5'000, '/')}) {
+        CAPTURE(name);
+        CHECK_FALSE(card.create(name));
+        CHECK_FALSE(card.append(name, 0, "x"));
+        CHECK_FALSE(card.rename("a.ctb", name));
+        CHECK_FALSE(card.rename(name, "b.ctb"));
+        CHECK_FALSE(card.remove(name));
+    }
+    CHECK(list() == Names{"a.ctb:1", "sub/"});
+    CHECK(text_of(outside.file("secret")) == "secret");
+    CHECK_FALSE(fs::exists(outside.file("made")));
+}
+
+TEST_CASE_FIXTURE(Card,
+                  "writing: symlinks, folders, pipes and hard links out of the folder stay as they are") {
+    std::ofstream(outside.file("secret")) << "secret";
+    fs::create_directory(outside.file("elsewhere"));
+    fs::create_symlink(outside.file("secret"), root + "/link");
+    fs::create_symlink(outside.file("dangling"), root + "/dangling");
+    fs::create_symlink(outside.file("elsewhere"), root + "/folder");
+    fs::create_hard_link(outside.file("secret"), root + "/hard");
+    REQUIRE(::mkfifo((root + "/pipe").c_str(), 0600) == 0);
+    folder("sub");
+    file("a.ctb", "a");
+    FolderCard card(root);
+    for (const char* name : {"link", "dangling", "folder", "folder/made", "pipe", "sub"}) {
+        CAPTURE(std::string(name));
+        CHECK_FALSE(card.create(name));
+        CHECK_FALSE(card.append(name, 0, "x"));
+        CHECK_FALSE(card.append(name, 6, "x"));
+        CHECK_FALSE(card.rename("a.ctb", name));
+        CHECK_FALSE(card.rename(name, "b.ctb"));
+        CHECK_FALSE(card.remove(name));
+    }
+    CHECK(fs::is_symlink(root + "/link"));
+    CHECK_FALSE(fs::exists(outside.file("dangling")));
+    CHECK(fs::is_empty(outside.file("elsewhere")));
+    CHECK(card.create("hard"));
+    CHECK(card.append("hard", 0, "over"));
+    CHECK(text_of(outside.file("secret")) == "secret");
+}
+
+TEST_CASE_FIXTURE(Card, "writing: a card that vanished takes nothing") {
+    FolderCard card(root);
+    REQUIRE(card.create("a"));
+    fs::remove_all(root);
+    CHECK_FALSE(card.append("a", 0, "x"));
+    CHECK_FALSE(card.rename("a", "b"));
+    CHECK_FALSE(card.create("a"));
+    CHECK_FALSE(card.remove("a"));
+    CHECK_FALSE(fs::exists(root));
+}
+
 }  // namespace
 }  // namespace fauxboard::host

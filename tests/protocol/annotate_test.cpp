@@ -79,7 +79,18 @@ TEST_CASE("what is wrong or unknown is said") {
     CHECK(screen("M104 Snan") == "nozzle: target \"nan\"");
     CHECK(screen("M104 Q5") == "nozzle: unknown \"Q5\"");
     CHECK(board("L3 PS:0 ZZ:4") == "print status: idle, unknown \"ZZ:4\"");
-    CHECK(screen("M99999 S1") == "unknown \"M99999 S1\"");
+    CHECK(screen("M99998 S1") == "unknown \"M99998 S1\"");
+}
+
+TEST_CASE("the lines of a ChiTu resin board in words") {
+    CHECK(screen("M4000") == "status query");
+    CHECK(screen("M6030 'a b.ctb'") == "print file: file \"'a b.ctb'\"");
+    CHECK(screen("M8015 I3 P2.5") == "first speeds: homing 3 mm/s, slow lift 2.5 mm/s");
+    CHECK(screen("M99999") == "discovery");
+    CHECK(board("ok N:0") == "acknowledged: text \"N:0\"");
+    CHECK(board("//Disk init fail!") == "no stick");
+    CHECK(board("// TEST.TXT") == "file: text \"TEST.TXT\"");
+    CHECK(board("start_task") == "power-on");
 }
 
 TEST_CASE("decoded parts") {

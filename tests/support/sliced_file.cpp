@@ -239,4 +239,45 @@ std::optional<std::size_t> MemoryDisk::read(std::string_view path, std::uint64_t
     return count;
 }
 
+std::uint64_t MemoryDisk::used() const {
+    std::uint64_t bytes = 0;
+    for (const auto& [name, content] : files_) {
+        bytes += content.size();
+    }
+    return bytes;
+}
+
+bool MemoryDisk::create(std::string_view path) {
+    if (failing_ || room_ == 0) {
+        return false;
+    }
+    files_[std::string(path)].clear();
+    return true;
+}
+
+bool MemoryDisk::append(std::string_view path, std::uint64_t offset, std::string_view bytes) {
+    const auto file = files_.find(path);
+    if (failing_ || file == files_.end() || file->second.size() != offset || used() + bytes.size() > room_) {
+        return false;
+    }
+    file->second += bytes;
+    return true;
+}
+
+bool MemoryDisk::rename(std::string_view from, std::string_view to) {
+    const auto file = files_.find(from);
+    if (failing_ || room_ == 0 || file == files_.end()) {
+        return false;
+    }
+    std::string content = std::move(file->second);
+    files_.erase(file);
+    files_[std::string(to)] = std::move(content);
+    return true;
+}
+
+bool MemoryDisk::remove(std::string_view path) {
+    const std::string name(path);
+    return files_.erase(name) + made_.erase(name) != 0;
+}
+
 }  // namespace fauxboard::testing

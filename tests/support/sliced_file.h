@@ -40,16 +40,27 @@ class MemoryDisk final : public printer::Volume {
     void put(const std::string& path, std::uint64_t bytes, Maker maker) {
         made_[path] = {bytes, std::move(maker)};
     }
-    void remove(const std::string& path) { files_.erase(path), made_.erase(path); }
     void set_failing(bool failing) { failing_ = failing; }
+    /// Writing works as long as all files that were put have no more bytes than this together.
+    void set_room(std::uint64_t bytes) { room_ = bytes; }
+    /// What stands in a file that was put or written; null when there is none.
+    const std::string* content(std::string_view path) const {
+        const auto found = files_.find(path);
+        return found == files_.end() ? nullptr : &found->second;
+    }
     mutable std::uint64_t bytes_read = 0;
 
     bool list(std::string_view folder, std::vector<printer::CardEntry>& out) const override;
     Kind look(std::string_view path, std::uint64_t& bytes) const override;
     std::optional<std::size_t> read(std::string_view path, std::uint64_t offset,
                                     std::span<char> out) const override;
+    bool create(std::string_view path) override;
+    bool append(std::string_view path, std::uint64_t offset, std::string_view bytes) override;
+    bool rename(std::string_view from, std::string_view to) override;
+    bool remove(std::string_view path) override;  ///< always, for tests that take a file away
 
   private:
+    std::uint64_t used() const;
     struct Made {
         std::uint64_t bytes = 0;
         Maker maker;
@@ -57,6 +68,7 @@ class MemoryDisk final : public printer::Volume {
     std::map<std::string, std::string, std::less<>> files_;
     std::map<std::string, Made, std::less<>> made_;
     bool failing_ = false;
+    std::uint64_t room_ = 0;  ///< write-protected unless told otherwise
 };
 
 }  // namespace fauxboard::testing

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "emulator/printer/sim_time.h"
+
+namespace fauxboard::printer {
+
+class Storage;
+
+/// A file on its way onto the chosen disk, or off it, piece by piece. One at a time: it belongs to whoever
+/// began it, and others are refused until it is closed, or until nothing came from its owner for
+/// `idle_limit`.
+///
+/// An upload is written beside, and takes its name when it is finished: half a file never stands in place of
+/// a whole one. Each function leaves its result in `outcome`, and says whether that is `done`.
+class Transfer {
+  public:
+    /// Who speaks: a number of the caller's.
+    using Peer = std::uint64_t;
+    enum class Mode : std::uint8_t { none, upload, download };
+    enum class Outcome : std::uint8_t {
+        done,
+        busy,      ///< another one's file is open, or an upload of the same one
+        not_open,  ///< there is nothing to go on with
+        no_name,   ///< a name that cannot be a file's
+        no_disk,
+        missing,       ///< no such file, or it cannot be read
+        resend,        ///< a damaged piece, or not the one that is next: see expected()
+        write_failed,  ///< full, gone, write-protected, or more than `max_bytes`
+        at_end,        ///< no bytes from there on
+    };
+
+    static constexpr SimTime idle_limit = std::chrono::seconds(30);
+    static constexpr std::uint64_t max_bytes = 0x8000'0000;
+
+    explicit Transfer(Storage& storage) : storage_(storage) {}
+
+    /// Forgets what was open; what was written of it stays on the disk, as when the power goes.
+    void power_on();
+
+    /// M28. Again by its owner before the first piece, it is as if the first had been lost.
+    bool upload(SimTime now, Peer peer, std::string_view name);
+    /// A piece; not `intact` when its checksum was wrong.
+    bool piece(SimTime now, Peer peer, bool intact, std::uint64_t offset, std::string_view bytes);
+    /// M29: the upload is whole and takes its name. It is over even when that fails.
+    bool finish(SimTime now, Peer peer);
+    /// M6032.
+    bool download(SimTime now, Peer peer, std::string_view name);
+    /// M3001, M3000 I: where the next block begins, to the byte.
+    bool seek(SimTime now, Peer peer, std::uint64_t offset);
+    /// The next block, into the start of `out`; `got` bytes of it. It began at `got` before position().
+    bool block(SimTime now, Peer peer, std::span<char> out, std::size_t& got);
+    /// M22: what is open is closed; of an upload nothing remains.
+    bool close(SimTime now, Peer peer);
+
+    Outcome outcome = Outcome::done;
+
+    Mode mode() const { return mode_; }
+    /// Whether this one's upload is open, so that what it sends may be pieces.
+    bool takes_from(Peer peer) const { return mode_ == Mode::upload && peer == owner_; }
+    /// As it was asked for; stays when it is over.
+    const std::string& name() const { return name_; }
+    /// Whether the disk had a file of the name when the upload began.
+    bool existed() const { return existed_; }
+    /// The place in the file that the next piece or block begins at.
+    std::uint64_t position() const { return position_; }
+    /// Of the file that is downloaded.
+    std::uint64_t bytes() const { return bytes_; }
+
+  private:
+    bool say(Outcome result);
+    /// Whether `peer` may begin: nothing is open, or what is has been left alone. Closes that then.
+    bool may_begin(SimTime now, Peer peer);
+    /// Whether `peer` may go on with what is open.
+    bool may_go_on(SimTime now, Peer peer, Mode mode);
+    void drop();
+    std::string beside() const;
+
+    Storage& storage_;
+    Mode mode_ = Mode::none;
+    Peer owner_ = 0;
+    SimTime last_{0};
+    int disk_ = 0;
+    std::string name_;
+    std::string path_;
+    bool existed_ = false;
+    std::uint64_t position_ = 0;
+    std::uint64_t bytes_ = 0;
+};
+
+/// "no_disk": for conditions.
+std::string_view to_string(Transfer::Outcome outcome);
+std::string_view to_string(Transfer::Mode mode);
+
+}  // namespace fauxboard::printer

@@ -1,0 +1,107 @@
+#include "tools/png_file.h"
+
+#include <fmt/format.h>
+#include <png.h>
+
+#include <cerrno>
+#include <csetjmp>
+#include <cstdio>
+#include <memory>
+#include <system_error>
+#include <vector>
+
+#include "emulator/host/host_error.h"
+
+namespace fauxboard::tools {
+namespace {
+
+struct CloseFile {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
+/// libpng's two structures, freed together.
+struct Png {
+    png_structp out = nullptr;
+    png_infop info = nullptr;
+    Png() = default;
+    Png(const Png&) = delete;
+    Png& operator=(const Png&) = delete;
+    ~Png() { png_destroy_write_struct(&out, &info); }
+};
+
+[[noreturn]] void quiet_error(png_structp png, png_const_charp) {
+    png_longjmp(png, 1);
+}
+void quiet_warning(png_structp, png_const_charp) {}
+
+// libpng reports errors by longjmp(): the three steps below hold nothing that would need destroying.
+
+bool begin(const Png& png, std::FILE* file, const PngPicture& picture) {
+    if (setjmp(png_jmpbuf(png.out)) != 0) {
+        return false;
+    }
+    png_init_io(png.out, file);
+    png_set_IHDR(png.out, png.info, picture.width, picture.height, 8,
+                 picture.colour ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_write_info(png.out, png.info);
+    return true;
+}
+
+bool put_row(const Png& png, const unsigned char* row) {
+    if (setjmp(png_jmpbuf(png.out)) != 0) {
+        return false;
+    }
+    png_write_row(png.out, row);
+    return true;
+}
+
+bool end(const Png& png) {
+    if (setjmp(png_jmpbuf(png.out)) != 0) {
+        return false;
+    }
+    png_write_end(png.out, nullptr);
+    return true;
+}
+
+[[noreturn]] void cannot_write(const std::string& path) {
+    const int error = errno;
+    std::remove(path.c_str());
+    throw host::HostError(
+        fmt::format("{} cannot be written: {}.", path, std::system_category().message(error)));
+}
+
+}  // namespace
+
+bool write_png(const std::string& path, const PngPicture& picture) {
+    std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "wbe"));
+    if (!file) {
+        throw host::HostError(
+            fmt::format("{} cannot be written: {}.", path, std::system_category().message(errno)));
+    }
+    Png png;
+    png.out = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, quiet_error, quiet_warning);
+    png.info = png.out != nullptr ? png_create_info_struct(png.out) : nullptr;
+    if (png.info == nullptr) {
+        throw std::bad_alloc();
+    }
+    std::vector<unsigned char> row(std::size_t{picture.width} * (picture.colour ? 3 : 1));
+    if (!begin(png, file.get(), picture)) {
+        cannot_write(path);
+    }
+    for (std::uint32_t y = 0; y < picture.height; ++y) {
+        if (!picture.next_row(row)) {
+            std::remove(path.c_str());
+            return false;
+        }
+        if (!put_row(png, row.data())) {
+            cannot_write(path);
+        }
+    }
+    if (!end(png) || std::fclose(file.release()) != 0) {
+        cannot_write(path);
+    }
+    return true;
+}
+
+}  // namespace fauxboard::tools

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+
+namespace fauxboard::tools {
+
+/// What a PNG is to show, row after row.
+struct PngPicture {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    bool colour = false;  ///< three bytes a pixel (red, green, blue), else one of grey
+    /// Fills the next row; false ends the picture there.
+    std::function<bool(std::span<unsigned char> row)> next_row;
+};
+
+/// Writes the picture; true when it is whole. False when next_row() gave up: the file is then gone again.
+/// Throws host::HostError when the file cannot be written.
+bool write_png(const std::string& path, const PngPicture& picture);
+
+}  // namespace fauxboard::tools
