@@ -34,10 +34,7 @@ Pattern::Pattern(std::string utf8) : text_(std::move(utf8)) {
     }
     regex_ = std::make_unique<re2::RE2>(*bytes, options());
     if (!regex_->ok()) {
-        const std::string& at = regex_->error_arg();
-        throw PatternError(
-            fmt::format("the regular expression is wrong: {}{}", regex_->error(),
-                        at.empty() ? "" : fmt::format(", at \"{}\"", behaviour::from_wire(at))));
+        throw PatternError("the regular expression is wrong: " + behaviour::from_wire(regex_->error()));
     }
 }
 

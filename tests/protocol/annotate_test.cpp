@@ -84,12 +84,12 @@ TEST_CASE("what is wrong or unknown is said") {
 
 TEST_CASE("the lines of a ChiTu resin board in words") {
     CHECK(screen("M4000") == "status query");
-    CHECK(screen("M6030 'a b.ctb'") == "print file: file \"'a b.ctb'\"");
+    CHECK(screen("M6030 'a b.ctb'") == "print file: \"'a b.ctb'\"");
     CHECK(screen("M8015 I3 P2.5") == "first speeds: homing 3 mm/s, slow lift 2.5 mm/s");
     CHECK(screen("M99999") == "discovery");
-    CHECK(board("ok N:0") == "acknowledged: text \"N:0\"");
+    CHECK(board("ok N:0") == "acknowledged: \"N:0\"");
     CHECK(board("//Disk init fail!") == "no stick");
-    CHECK(board("// TEST.TXT") == "file: text \"TEST.TXT\"");
+    CHECK(board("// TEST.TXT") == "file: \"TEST.TXT\"");
     CHECK(board("start_task") == "power-on");
 }
 
