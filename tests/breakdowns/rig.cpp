@@ -106,7 +106,7 @@ void Rig::press(std::string_view body) {
 }
 
 void Rig::host(std::string_view line) {
-    board_.receive_host(now_, std::string(line) + "\n");
+    board_.receive(now_, std::string(line) + "\n", board::Channel::host);
 }
 
 control::Json Rig::ask(const control::Json& request) {
