@@ -19,6 +19,38 @@ local ways = { board = "board → screen", screen = "screen → board" }
 -- FAUXBOARD_UPDATE=1 in the environment it makes it anew.
 local codes = {
     board = {
+        { code = "//", words = true, title = "file", meaning = "Name of the file written.", fields = {
+            { key = "", name = "text", kind = "text" },
+        } },
+        { code = "//############Error!cann't open file", words = true, title = "file not opened", meaning = "Answer to M23.", fields = {
+            { key = "", name = "text", kind = "text" },
+        } },
+        { code = "//#####Error!cann't open file", words = true, title = "no start-up file", meaning = "Of the console at power-on.", fields = {} },
+        { code = "//Disk init fail!", words = true, title = "no stick", meaning = "There is no stick, or it cannot be read.", fields = {} },
+        { code = "Begin file list", words = true, title = "file list begins", meaning = "Files and sizes follow.", fields = {} },
+        { code = "Delete failed :", words = true, title = "no file to delete", meaning = "There was no such file.", fields = {
+            { key = "", name = "text", kind = "text" },
+        } },
+        { code = "Done saving file!", words = true, title = "file written", meaning = "A file of the stick is whole.", fields = {} },
+        { code = "End file list", words = true, title = "file list ends", meaning = "No more files.", fields = {} },
+        { code = "Error!", words = true, title = "refused", meaning = "The request cannot be done.", fields = {
+            { key = "", name = "text", kind = "text" },
+        } },
+        { code = "Error:", words = true, title = "refused", meaning = "The request cannot be done.", fields = {
+            { key = "", name = "text", kind = "text" },
+        } },
+        { code = "File deleted :", words = true, title = "file deleted", meaning = "A file of the stick is gone.", fields = {
+            { key = "", name = "text", kind = "text" },
+        } },
+        { code = "File opened:", words = true, title = "file opened", meaning = "Answer to M23: name and size.", fields = {
+            { key = "", name = "text", kind = "text" },
+        } },
+        { code = "File selected", words = true, title = "file selected", meaning = "Answer to M23.", fields = {
+            { key = "", name = "text", kind = "text" },
+        } },
+        { code = "SD N:", words = true, title = "SD progress", meaning = "ChiTu 4.4.3: the first piece of the answer to M27.", fields = {
+            { key = "", name = "text", kind = "text" },
+        } },
         { code = "SD printing byte", words = true, title = "SD progress", meaning = "Answer to M27, sent without frame.", fields = {
             { key = "", name = "at", kind = "integer" },
             { key = "/", name = "of", kind = "integer", unit = "bytes" },
@@ -27,6 +59,24 @@ local codes = {
             { key = "", name = "file", kind = "text", meaning = "volume and path: SD1:/A30T/cube.gco" },
         } },
         { code = "Stop Print", words = true, title = "print stopped", meaning = "Answer to M2103, sent without frame.", fields = {} },
+        { code = "UART1 init OK", words = true, title = "power-on", meaning = "Of the console.", fields = {} },
+        { code = "USB disk_OK", words = true, title = "stick is there", meaning = "Of the console at power-on.", fields = {} },
+        { code = "USB disk_ok", words = true, title = "stick put in", meaning = "Of the console.", fields = {} },
+        { code = "byte", words = true, title = "SD progress", meaning = "ChiTu 4.4.3: the place in the file, and its size.", fields = {
+            { key = "", name = "text", kind = "text" },
+        } },
+        { code = "chitu_initial_file_autorun!", words = true, title = "no start-up file", meaning = "Of the console at power-on.", fields = {} },
+        { code = "ok", words = true, title = "acknowledged", meaning = "The request was taken; what it asked for stands behind.", fields = {
+            { key = "", name = "text", kind = "text" },
+        } },
+        { code = "open failed, File :", words = true, title = "file not opened", meaning = "Answer to M23.", fields = {
+            { key = "", name = "text", kind = "text" },
+        } },
+        { code = "resend", words = true, title = "again, please", meaning = "A piece of an upload is wrong or not the next: its place.", fields = {
+            { key = "", name = "text", kind = "text" },
+        } },
+        { code = "start", words = true, title = "power-on", meaning = "Of the console.", fields = {} },
+        { code = "start_task", words = true, title = "power-on", meaning = "Of the console.", fields = {} },
         { code = "L1", title = "position", meaning = "Position and feedrate.", fields = {
             { key = "X", name = "X", kind = "number", unit = "mm", meaning = "end of the last move accepted by the planner, not the moving head (C)" },
             { key = "Y", name = "Y", kind = "number", unit = "mm" },
@@ -221,6 +271,10 @@ local codes = {
         } },
     },
     screen = {
+        { code = "M99999", words = true, title = "discovery", meaning = "ChiTu: who is there?", answer = "ok MAC:", fields = {} },
+        { code = "U100", words = true, title = "network name", meaning = "ChiTu: what the printer is called in the network.", answer = "ok N:", fields = {
+            { key = "", name = "name", kind = "text" },
+        } },
         { code = "log", words = true, title = "screen log", meaning = "A message at the screen's power-up, never framed.", fields = {
             { key = "", name = "message", kind = "text" },
         } },
@@ -319,6 +373,16 @@ local codes = {
             { key = "S", name = "at", kind = "integer", unit = "bytes" },
         } },
         { code = "M27", title = "SD progress query", meaning = "Ask how far the file is read.", answer = "SD printing byte", fields = {} },
+        { code = "M28", title = "upload", meaning = "ChiTu: a file is written from here on.", answer = "ok N:", fields = {
+            { key = "", name = "file", kind = "text" },
+        } },
+        { code = "M29", title = "upload's end", meaning = "ChiTu: the file written is closed.", answer = "Done saving file!", fields = {} },
+        { code = "M30", title = "delete file", meaning = "ChiTu: removes a file of the stick.", answer = "File deleted :, Delete failed :", fields = {
+            { key = "", name = "file", kind = "text" },
+        } },
+        { code = "M33", title = "stop", meaning = "ChiTu: stops the print.", answer = "ok N:", fields = {
+            { key = "I", name = "unknown", kind = "number" },
+        } },
         { code = "M82", title = "absolute extrusion", meaning = "E names an end.", fields = {} },
         { code = "M83", title = "relative extrusion", meaning = "E names a length.", fields = {} },
         { code = "M84", title = "motors off", meaning = "As M18.", answer = "L3", fields = {
@@ -351,6 +415,9 @@ local codes = {
             { key = "S", name = "target", kind = "number", unit = "°C", meaning = "0: off" },
             { key = "R", name = "target, also cooling down", kind = "number", unit = "°C" },
             { key = "T", name = "extruder", kind = "integer" },
+        } },
+        { code = "M110", title = "line number", meaning = "The number that the next line counts from.", answer = "ok N:", fields = {
+            { key = "N", name = "number", kind = "number" },
         } },
         { code = "M112", title = "emergency stop", meaning = "Heaters and motors off, the job ends.", answer = "L3", fields = {} },
         { code = "M114", title = "position query", meaning = "Ask for the position.", answer = "L1", fields = {} },
@@ -422,6 +489,10 @@ local codes = {
         } },
         { code = "M290", title = "babystep", meaning = "Set the babystep.", answer = "L24 P5", fields = {
             { key = "Z", name = "Z", kind = "number", unit = "mm", meaning = "the whole offset, not a step; refused until homed (C)" },
+        } },
+        { code = "M300", title = "beep", meaning = "ChiTu: a tone.", answer = "ok N:", fields = {
+            { key = "S", name = "pitch", kind = "number", unit = "Hz" },
+            { key = "P", name = "time", kind = "number", unit = "ms" },
         } },
         { code = "M400", title = "finish moves", meaning = "Wait until all moves are done.", fields = {} },
         { code = "M500", title = "save settings", meaning = "Write the settings to the EEPROM.", fields = {} },
@@ -534,6 +605,137 @@ local codes = {
         { code = "M2140", title = "settings query", meaning = "Ask for a page of settings, or restore them.", answer = "L24", fields = {
             { key = "S", name = "page", kind = "integer", values = { [0] = "steps per mm", [1] = "velocities", [2] = "accelerations", [3] = "jerk", [4] = "unknown page", [5] = "babystep", [6] = "home offsets" } },
             { key = "R", name = "restore", kind = "integer", values = { [0] = "stored settings back" } },
+        } },
+        { code = "M3000", title = "block query", meaning = "ChiTu: the next block of a download.", answer = "a block", fields = {
+            { key = "I", name = "from byte", kind = "number" },
+        } },
+        { code = "M3001", title = "block query", meaning = "ChiTu: a block of a download again.", answer = "a block", fields = {
+            { key = "I", name = "from byte", kind = "number" },
+        } },
+        { code = "M4000", title = "status query", meaning = "ChiTu: heaters, height, fans, place in the file.", answer = "ok B:", fields = {} },
+        { code = "M4001", title = "parameter query", meaning = "ChiTu: steps, volume, charset.", answer = "ok X:", fields = {} },
+        { code = "M4002", title = "version query", meaning = "ChiTu: the firmware's version.", answer = "ok V", fields = {} },
+        { code = "M4003", title = "power off", meaning = "ChiTu: switches the printer off.", answer = "ok N:", fields = {} },
+        { code = "M4004", title = "block query", meaning = "ChiTu: which command blocks.", answer = "ok C:", fields = {} },
+        { code = "M4006", title = "file query", meaning = "ChiTu: the name of the file printed.", answer = "ok '", fields = {} },
+        { code = "M4012", title = "upload query", meaning = "ChiTu: how much of an upload came.", answer = "ok", fields = {
+            { key = "I", name = "what", kind = "number" },
+            { key = "T", name = "size", kind = "number", unit = "bytes" },
+        } },
+        { code = "M5000", title = "authorisation", meaning = "ChiTu: a word of 16 bytes.", answer = "Error:auth", fields = {
+            { key = "", name = "word", kind = "text" },
+        } },
+        { code = "M5002", title = "identity query", meaning = "ChiTu: three words of the processor.", answer = "0x", fields = {} },
+        { code = "M6030", title = "print file", meaning = "ChiTu: opens a file and prints it.", answer = "ok N:", fields = {
+            { key = "", name = "file", kind = "text" },
+        } },
+        { code = "M6032", title = "open file", meaning = "ChiTu: opens a file for download.", answer = "ok L:", fields = {
+            { key = "", name = "file", kind = "text" },
+        } },
+        { code = "M6040", title = "restart", meaning = "ChiTu: restarts the board.", fields = {
+            { key = "I", name = "after", kind = "number", unit = "ms" },
+        } },
+        { code = "M8004", title = "motor direction", meaning = "ChiTu: a setting.", answer = "ok N:", fields = {
+            { key = "I", name = "Z", kind = "number" },
+        } },
+        { code = "M8005", title = "what Z moves", meaning = "ChiTu: a setting.", answer = "ok N:", fields = {
+            { key = "Z", name = "Z", kind = "number" },
+        } },
+        { code = "M8006", title = "starting speed", meaning = "ChiTu: a setting.", answer = "ok N:", fields = {
+            { key = "I", name = "speed", kind = "number", unit = "mm/s" },
+        } },
+        { code = "M8007", title = "jerk", meaning = "ChiTu: a setting.", answer = "ok N:", fields = {
+            { key = "I", name = "speed", kind = "number", unit = "mm/s" },
+        } },
+        { code = "M8008", title = "acceleration", meaning = "ChiTu: a setting.", answer = "ok N:", fields = {
+            { key = "I", name = "acceleration", kind = "number", unit = "mm/s²" },
+        } },
+        { code = "M8010", title = "step of Z", meaning = "ChiTu: a setting.", answer = "ok N:", fields = {
+            { key = "S", name = "length", kind = "number", unit = "mm" },
+        } },
+        { code = "M8013", title = "highest speed of Z", meaning = "ChiTu: a setting.", answer = "ok N:", fields = {
+            { key = "I", name = "speed", kind = "number", unit = "mm/s" },
+        } },
+        { code = "M8015", title = "first speeds", meaning = "ChiTu: a setting.", answer = "ok N:", fields = {
+            { key = "I", name = "homing", kind = "number", unit = "mm/s" },
+            { key = "P", name = "slow lift", kind = "number", unit = "mm/s" },
+            { key = "T", name = "slow lift", kind = "number", unit = "mm/s" },
+        } },
+        { code = "M8016", title = "second speeds", meaning = "ChiTu: a setting.", answer = "ok N:", fields = {
+            { key = "I", name = "homing", kind = "number", unit = "mm/s" },
+            { key = "P", name = "fast lift", kind = "number", unit = "mm/s" },
+            { key = "T", name = "fast lift", kind = "number", unit = "mm/s" },
+            { key = "D", name = "wait", kind = "number", unit = "ms" },
+        } },
+        { code = "M8020", title = "withdrawal", meaning = "ChiTu: a setting.", answer = "ok N:", fields = {
+            { key = "S", name = "length", kind = "number", unit = "mm" },
+        } },
+        { code = "M8021", title = "consumable", meaning = "ChiTu: a setting.", answer = "ok N:", fields = {
+            { key = "S", name = "diameter", kind = "number", unit = "mm" },
+        } },
+        { code = "M8026", title = "travel of Z", meaning = "ChiTu: a setting.", answer = "ok N:", fields = {
+            { key = "I", name = "height", kind = "number", unit = "mm" },
+        } },
+        { code = "M8028", title = "wire back", meaning = "ChiTu: a setting.", answer = "ok N:", fields = {
+            { key = "S", name = "length", kind = "number", unit = "mm" },
+        } },
+        { code = "M8029", title = "end stops", meaning = "ChiTu: a setting.", answer = "ok N:", fields = {
+            { key = "I", name = "type", kind = "number" },
+            { key = "T", name = "wiring", kind = "number" },
+            { key = "S", name = "side", kind = "number" },
+            { key = "C", name = "after homing", kind = "number" },
+        } },
+        { code = "M8030", title = "fans and LED", meaning = "ChiTu: a setting.", answer = "ok N:", fields = {
+            { key = "I", name = "fan of the LED", kind = "number" },
+            { key = "T", name = "fan of the board", kind = "number" },
+            { key = "S", name = "LED", kind = "number" },
+            { key = "C", name = "after homing", kind = "number" },
+        } },
+        { code = "M8034", title = "folders", meaning = "ChiTu: a setting.", answer = "ok N:", fields = {
+            { key = "I", name = "support", kind = "number" },
+        } },
+        { code = "M8070", title = "lifts and projector", meaning = "ChiTu: a setting.", answer = "ok N:", fields = {
+            { key = "Z", name = "lift", kind = "number", unit = "mm" },
+            { key = "S", name = "slowly", kind = "number", unit = "mm" },
+            { key = "T", name = "warm-up", kind = "number", unit = "s" },
+            { key = "I", name = "speed of the line", kind = "number", unit = "baud" },
+        } },
+        { code = "M8071", title = "resolution", meaning = "ChiTu: a setting.", answer = "ok N:", fields = {
+            { key = "X", name = "X", kind = "number", unit = "pixels" },
+            { key = "Y", name = "Y", kind = "number", unit = "pixels" },
+        } },
+        { code = "M8083", title = "zero", meaning = "ChiTu: a setting.", answer = "ok N:", fields = {
+            { key = "I", name = "off the end stop", kind = "number" },
+        } },
+        { code = "M8084", title = "zero offset", meaning = "ChiTu: a setting.", answer = "ok N:", fields = {
+            { key = "Z", name = "Z", kind = "number", unit = "mm" },
+        } },
+        { code = "M8085", title = "screen", meaning = "ChiTu: a setting.", answer = "ok N:", fields = {
+            { key = "I", name = "logo", kind = "number", unit = "ms" },
+            { key = "T", name = "saver after", kind = "number", unit = "s" },
+        } },
+        { code = "M8087", title = "external driver", meaning = "ChiTu: a setting.", answer = "ok N:", fields = {
+            { key = "I", name = "settling", kind = "number", unit = "ns" },
+            { key = "T", name = "holding", kind = "number", unit = "ns" },
+        } },
+        { code = "M8093", title = "diagnostics", meaning = "ChiTu: writes a file of status and settings.", answer = "Done saving file!", fields = {
+            { key = "I", name = "what", kind = "number" },
+        } },
+        { code = "M8489", title = "after a print", meaning = "ChiTu: a setting.", answer = "ok N:", fields = {
+            { key = "P", name = "action", kind = "number" },
+        } },
+        { code = "M8500", title = "save settings", meaning = "ChiTu: keeps the settings.", answer = "ok N:", fields = {} },
+        { code = "M8510", title = "use settings", meaning = "ChiTu: puts the settings into use, unsaved.", answer = "ok N:", fields = {} },
+        { code = "M8511", title = "saved settings", meaning = "ChiTu: takes the saved settings back.", answer = "ok N:", fields = {} },
+        { code = "M8512", title = "backup", meaning = "ChiTu: writes the settings into a file.", answer = "Done saving file!", fields = {
+            { key = "", name = "file", kind = "text" },
+        } },
+        { code = "M8513", title = "factory settings", meaning = "ChiTu: forgets all settings.", answer = "ok N:", fields = {} },
+        { code = "M9003", title = "join a network", meaning = "ChiTu: WiFi as a client.", answer = "ok N:", fields = {
+            { key = "", name = "name and password", kind = "text" },
+        } },
+        { code = "M9005", title = "open a network", meaning = "ChiTu: WiFi as an access point.", answer = "ok N:", fields = {
+            { key = "", name = "name and password", kind = "text" },
         } },
         { code = "T0", title = "tool 0", meaning = "Select extruder 0, or its mix.", answer = "L22", fields = {} },
         { code = "T1", title = "tool 1", meaning = "Select extruder 1, or its mix.", answer = "L22", fields = {} },

@@ -87,7 +87,7 @@ TEST_CASE("recording: a wrong line is told by file, line and what is wrong") {
     CHECK(error_of("{\"t\": 1e99, \"from\": \"board\", \"line\": \"x\"}").find("expected seconds") !=
           std::string::npos);
     CHECK(error_of("{\"t\": 0, \"from\": \"moon\", \"line\": \"x\"}") ==
-          "talk.jsonl:1: from: found \"moon\"; expected board, screen, host or world");
+          "talk.jsonl:1: from: found \"moon\"; expected board, screen, host, world or usb");
     CHECK(error_of("{\"t\": 0, \"from\": \"world\", \"line\": \"x\"}") ==
           "talk.jsonl:1: the key \"do\" is missing");
     for (const char* bytes : {"\"\\u0100\"", "\"a\\nb\"", "7"}) {
