@@ -86,7 +86,7 @@ TEST_CASE("mistakes of the command line") {
         {{{"run", "--screen", "geeetech-a30t"}, usage, "--screen requires --script"},
          {{"run", "--script", "soak", "--screen", "geeetech-a30t", "--pty"},
           usage,
-          "--screen excludes --pty"},
+          "--pty excludes --screen"},
          {{"run", "--script", "soak", "--param", "rounds"}, usage, "expected name=value"},
          {{"run", "--script", "soack"}, bad_input, "did you mean \"soak\"?"},
          {{"run", "--script", "soak", "--param", "round=1"}, bad_input, "did you mean \"rounds\"?"},

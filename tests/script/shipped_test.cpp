@@ -138,8 +138,8 @@ TEST_CASE(
         CAPTURE(name);
         broken.insert(name);
         testing::ScenarioSetup setup;
-        const Json given = row.value("arguments", Json::object());  // items() only looks at it
-        for (const auto& [key, value] : given.items()) {
+        const Json arguments = row.value("arguments", Json::object());
+        for (const auto& [key, value] : arguments.items()) {
             setup.arguments[key] = value.get<std::string>();
         }
         const auto source = testing::changed_scenario(name, [&](Json& root) {

@@ -13,6 +13,8 @@
 #include "emulator/host/script_files.h"
 #include "emulator/host/script_host.h"
 #include "emulator/link/event_loop.h"
+// After event_loop.h, which see.
+#include <asio/executor_work_guard.hpp>
 
 namespace fauxboard::testing {
 namespace {
@@ -96,6 +98,7 @@ ScenarioRun play(const behaviour::SourceText& source, const ScenarioSetup& setup
 
     ScenarioRun out;
     asio::io_context loop(1);
+    const auto work = asio::make_work_guard(loop);  // else the loop ends at its first idle look
     host::Speed speed;
     speed.max = true;
     const auto clock = host::make_clock(loop, speed);
