@@ -20,14 +20,14 @@ using printer::EventId;
 using std::string;
 
 struct Bench final : NoticeSink {
-    std::shared_ptr<const Profile> profile = small_profile();
+    std::shared_ptr<const Profile> profile;
     printer::Printer machine{profile->machine, {}, 1};
     std::vector<double> variables{profile->variables[0].initial};
     std::vector<string> notices;
     bool reset = false;
     printer::SimTime now{0};
 
-    Bench() {
+    explicit Bench(std::shared_ptr<const Profile> of = small_profile()) : profile(std::move(of)) {
         machine.power_on(now);
         machine.factory_image = machine.eeprom_image = "settings.steps.x 80\nsettings.steps.y 80\n";
         pass(1);
@@ -81,5 +81,7 @@ struct ActionRow {
 const std::vector<ActionRow>& machine_action_rows();
 const std::vector<ActionRow>& device_action_rows();
 const std::vector<ActionRow>& fault_action_rows();
+/// Of a resin printer.
+const std::vector<ActionRow>& resin_action_rows();
 
 }  // namespace fauxboard::testing
