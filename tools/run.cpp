@@ -17,11 +17,13 @@
 #include "emulator/host/json_log.h"
 #include "emulator/host/line_log.h"
 #include "emulator/host/live_board.h"
+#include "emulator/host/network_line.h"
 #include "emulator/host/profile_files.h"
 #include "emulator/host/profile_watch.h"
 #include "emulator/host/recorder.h"
 #include "emulator/link/event_loop.h"
 #include "emulator/link/ports.h"
+#include "emulator/link/udp_socket.h"
 #include "tools/commands.h"
 #include "tools/report.h"
 #include "tools/run_options.h"
@@ -74,6 +76,7 @@ class Run {
     void set_up();
     std::unique_ptr<link::Link> make_link();
     void open_control();
+    void open_network();
     void say_ready();
     void say(board::Level level, std::string_view text);
     void reload();
@@ -96,6 +99,8 @@ class Run {
     std::optional<host::FaultyLink> link_;
     std::optional<board::Board> board_;
     std::optional<host::LiveBoard> live_;
+    std::unique_ptr<link::UdpSocket> udp_;
+    std::optional<host::NetworkLine> network_;
     std::optional<LineFaults> faults_;
     std::optional<host::ControlServer> control_;
     asio::signal_set signals_;
@@ -164,6 +169,13 @@ void Run::open_control() {
     control_->open(options_.control);
 }
 
+void Run::open_network() {
+    if (!options_.udp.empty()) {
+        udp_ = link::make_udp_socket(loop_, options_.udp);
+        udp_->open(network_.emplace(*live_, *udp_, &observers_));
+    }
+}
+
 void Run::say_ready() {
     nlohmann::ordered_json ready{
         {"profile", profile_->name}, {"link", link_->kind()}, {"path", link_->path()}};
@@ -172,6 +184,9 @@ void Run::say_ready() {
     }
     if (control_) {
         ready["control"] = options_.control;
+    }
+    if (udp_) {
+        ready["udp"] = udp_->path();
     }
     out_.write("ready " + ready.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) + "\n");
     if (options_.json) {
@@ -223,6 +238,7 @@ void Run::operator()() {
         }
     });
     open_control();
+    open_network();
     link_->open(*live_);
     say_ready();
     if (options_.reload) {
@@ -237,6 +253,9 @@ void Run::operator()() {
     clock_->run();
     if (control_) {
         control_->close();
+    }
+    if (udp_) {
+        udp_->close();
     }
     link_->close();
     log_.finish(live_->now());

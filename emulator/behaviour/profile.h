@@ -36,6 +36,7 @@ struct Frame {
     std::string name;
     protocol::FrameStyle style = protocol::FrameStyle::framed;
     protocol::LineEnd end = protocol::LineEnd::crlf;
+    bool chunk = false;  ///< no lines: the block of a file that transfer.block read
     std::vector<Line> lines;
     std::vector<ActionCall> then;  ///< done when it is queued
     std::vector<const Field*>

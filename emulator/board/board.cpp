@@ -73,6 +73,7 @@ void Board::power_on(SimTime now) {
     last_tick_ = now - profile_->tick;
     inbox_.clear();
     outbox_.clear();
+    network_ = NetworkOutbox();
     screen_splitter_.reset();
     host_splitter_.reset();
     machine_.power_on(now);
@@ -233,7 +234,7 @@ void Board::send(const Send& entry, const Scope& here) {
     }
     const Frame& frame = profile_->frames[entry.frame];
     for (unsigned i = 0; i < entry.times; ++i) {
-        const bool at_once = entry.now || !options_.pacing;
+        const bool at_once = !network_.asking() && (entry.now || !options_.pacing);
         const bool short_one = frame.lines.size() == 1 && !frame.lines[0].for_each_entry;
         Draft draft{at_once ? output_.room(short_one ? line_bytes : scratch_bytes)
                             : std::span<char>(scratch_)};
@@ -246,7 +247,10 @@ void Board::send(const Send& entry, const Scope& here) {
             }
         }
         const std::string_view message(draft.room.data(), draft.size);
-        if (at_once) {
+        if (network_.asking()) {
+            network_.add(message, frame.chunk);
+            counters_.lines_sent += draft.lines;
+        } else if (at_once) {
             output_.grow(draft.size);
             counters_.lines_sent += draft.lines;
             tell_sent(message);
@@ -275,6 +279,14 @@ void Board::compose_line(const Frame& frame, const behaviour::FrameTemplate& tex
 }
 
 void Board::compose(const Frame& frame, const Scope& here, Draft& draft) {
+    if (frame.chunk) {
+        const printer::Transfer& transfer = machine_.transfer;
+        const std::string_view block = transfer.last_block.view();
+        draft.size = protocol::write_chunk(
+            draft.room, static_cast<std::uint32_t>(transfer.position() - block.size()), block);
+        draft.lines = 1;
+        return;
+    }
     const std::size_t end = draft.room.size();
     for (const Frame::Line& line : frame.lines) {
         if (!line.for_each_entry) {

@@ -12,10 +12,12 @@
 #include "emulator/behaviour/notice.h"
 #include "emulator/behaviour/profile.h"
 #include "emulator/board/message_queue.h"
+#include "emulator/board/network_outbox.h"
 #include "emulator/board/output_buffer.h"
 #include "emulator/board/wheel.h"
 #include "emulator/printer/printer.h"
 #include "emulator/printer/sim_time.h"
+#include "protocol/chitu_chunk.h"
 #include "protocol/framing.h"
 
 namespace fauxboard::board {
@@ -85,6 +87,14 @@ class Board final : private behaviour::NoticeSink {
     void receive(SimTime now, std::string_view bytes);
     /// Bytes from the USB side.
     void receive_host(SimTime now, std::string_view bytes);
+    /// A datagram of the network from `peer`, a number that is not 0: one request, or a piece of the file
+    /// that it uploads. Carried out at once; what the board says to it is for take_datagrams().
+    void receive_datagram(SimTime now, std::uint64_t peer, std::string_view bytes);
+    /// Calls out(peer, bytes) for each datagram to send, and forgets them.
+    template <class Out>
+    void take_datagrams(Out&& out) {
+        network_.take(std::forward<Out>(out));
+    }
     /// Does something to the machine: an action without required arguments, by name or by phrase ("filament
     /// in"). False when there is none of that name.
     bool world(SimTime now, std::string_view phrase);
@@ -127,6 +137,8 @@ class Board final : private behaviour::NoticeSink {
     void notice(Level level, std::string_view text) override;
     void take_line(Channel channel, std::string_view line);
     void execute(Channel channel, std::string_view body);
+    void take_piece(std::uint64_t peer, const protocol::Chunk& chunk);
+    void take_request(std::string_view bytes);
     void run_rule(const behaviour::Rule& rule, const behaviour::Scope& scope);
     bool run_rules(const std::vector<behaviour::Rule>& rules, const protocol::Command* command);
     void run_events();
@@ -162,6 +174,7 @@ class Board final : private behaviour::NoticeSink {
     MessageQueue inbox_;
     MessageQueue outbox_;
     OutputBuffer output_;
+    NetworkOutbox network_;
     std::vector<char> scratch_;
     std::vector<double> variables_;
     Counters counters_;

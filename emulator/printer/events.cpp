@@ -45,6 +45,10 @@ constexpr std::array<EventInfo, event_count> table{{
      "the file being printed waits for the user (M0, M1, M600); resuming goes on"},
     {EventId::job_layer_done, "job.layer_done", "a layer of a resin print has been exposed"},
     {EventId::board_reboot_due, "board.reboot_due", "the time that board.reboot was given has passed"},
+    {EventId::transfer_piece, "transfer.piece",
+     "a piece of an uploaded file came in; transfer.outcome says what became of it, and what is sent goes to "
+     "its "
+     "sender"},
 }};
 
 consteval bool ordered() {

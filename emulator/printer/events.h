@@ -48,6 +48,7 @@ enum class EventId : std::uint8_t {
     job_waits_for_user,
     job_layer_done,
     board_reboot_due,
+    transfer_piece,
     count_  // not an event
 };
 
