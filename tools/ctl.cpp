@@ -186,13 +186,15 @@ Json spec_of(const std::string& text) {
     return parsed.is_object() ? parsed : Json(text);
 }
 
+/// A number of a line's fault, or a word of the printer's.
 Json id_of(const std::string& text) {
     const Json parsed = Json::parse(text, nullptr, false);
-    if (!parsed.is_number_unsigned()) {
-        throw CLI::ValidationError("fault",
-                                   "'" + text + "' is no fault's id; expected a number of `fault list`");
+    if (!parsed.is_number_unsigned() && !parsed.is_discarded()) {
+        throw CLI::ValidationError("fault", "'" + text +
+                                                "' is no fault's id; expected a number or a word of `fault "
+                                                "list`, such as 1 or p1, or a fault's name");
     }
-    return parsed;
+    return parsed.is_discarded() ? Json(text) : parsed;
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -256,7 +258,7 @@ void add_doing(CLI::App& to, Ctl& ctl) {
 }
 
 void add_faults(CLI::App& to, Ctl& ctl) {
-    CLI::App* fault = to.add_subcommand("fault", "Faults of the tested line");
+    CLI::App* fault = to.add_subcommand("fault", "Faults of the tested line and of the printer");
     fault->require_subcommand(1)->fallthrough();
     CLI::App* list = add(*fault, "list", "What is in force, and what it has done",
                          [&ctl] { ctl.request["op"] = "faults.list"; });
@@ -274,7 +276,9 @@ void add_faults(CLI::App& to, Ctl& ctl) {
         command->add_option("ID", ctl.id, "Of `fault list`")->required();
     }
     for (CLI::App* command : {added, changed}) {
-        command->add_option("SPEC", ctl.spec, "garble:to_screen,every=5, or JSON; see `describe faults`")
+        command
+            ->add_option("SPEC", ctl.spec,
+                         "garble:to_screen,every=5 or jam:at=60s, or JSON; see `describe faults`")
             ->required();
     }
     static_cast<void>(list);

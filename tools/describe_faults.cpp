@@ -46,7 +46,50 @@ std::string rows_markdown(const Json& attributes) {
     return out;
 }
 
+/// "filament.out, job.paused", or that there are none.
+std::string events_of(const Json& kind) {
+    std::string out;
+    for (const Json& event : kind["events"]) {
+        out += (out.empty() ? "" : ", ") + plain(event);
+    }
+    return out;
+}
+
+std::string printer_text(const Json& faults) {
+    std::string out =
+        "  faults of the printer: kinds of `run`, not of `tap` (\"jam:at=60s,for=30s\", "
+        "\"heater_dead:heater=bed\")\n";
+    for (const Json& kind : faults["kinds"]) {
+        out += fmt::format("  {:<16} {}\n", plain(kind["name"]), plain(kind["help"]));
+        const std::string events = events_of(kind);
+        out += events.empty() ? "" : fmt::format("      raises {}\n", events);
+        out +=
+            plain(kind["back"]).empty() ? "" : fmt::format("      also ended by {}\n", plain(kind["back"]));
+        out += rows_text(kind["attributes"]);
+    }
+    return out + "  each of them takes\n" + rows_text(faults["common"]);
+}
+
 constexpr std::string_view table_head = "\n| Attribute | Values | Meaning |\n| --- | --- | --- |\n";
+
+std::string printer_markdown(const Json& faults) {
+    std::string out =
+        "\n### Faults of the printer\n\nThe same spelling, for the machine instead of the line: "
+        "`jam:at=60s,for=30s`, `heater_dead:heater=bed`. A field `faults.` and the name says whether one is "
+        "in "
+        "force; what it makes the board say stands in the profile, at the event that it raises.\n";
+    for (const Json& kind : faults["kinds"]) {
+        const std::string events = events_of(kind);
+        const std::string back = plain(kind["back"]);
+        out += fmt::format("\n**`{}`** {}.{}{}\n", plain(kind["name"]), plain(kind["help"]),
+                           events.empty() ? "" : " Raises " + events + ".",
+                           back.empty() ? "" : " Also ended by " + back + ".");
+        if (!kind["attributes"].empty()) {
+            out += std::string(table_head) + rows_markdown(kind["attributes"]);
+        }
+    }
+    return out + "\nEach of them takes these:\n" + std::string(table_head) + rows_markdown(faults["common"]);
+}
 
 }  // namespace
 
@@ -58,7 +101,7 @@ std::string faults_text(const Json& faults) {
         out += rows_text(kind["attributes"]);
     }
     return out + "  each of them takes, unless it has an attribute of that name itself\n" +
-           rows_text(faults["common"]);
+           rows_text(faults["common"]) + printer_text(faults["printer"]);
 }
 
 std::string faults_markdown(const Json& faults) {
@@ -73,7 +116,7 @@ std::string faults_markdown(const Json& faults) {
         }
     }
     return out + "\nEvery kind takes these, unless it has an attribute of that name itself:\n" +
-           std::string(table_head) + rows_markdown(faults["common"]);
+           std::string(table_head) + rows_markdown(faults["common"]) + printer_markdown(faults["printer"]);
 }
 
 }  // namespace fauxboard::tools

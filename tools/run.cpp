@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "emulator/fault/printer_fault.h"
 #include "emulator/host/clock.h"
 #include "emulator/host/control_server.h"
 #include "emulator/host/eeprom_file.h"
@@ -75,6 +76,7 @@ class Run {
     }
     void set_up();
     std::unique_ptr<link::Link> make_link();
+    std::unique_ptr<link::Link> make_host_link();
     void open_control();
     void open_network();
     void say_ready();
@@ -97,6 +99,7 @@ class Run {
     std::unique_ptr<host::Clock> clock_;
     std::unique_ptr<link::Link> wire_;  ///< the line as it is
     std::optional<host::FaultyLink> link_;
+    std::unique_ptr<link::Link> host_link_;  ///< the board's USB port
     std::optional<board::Board> board_;
     std::optional<host::LiveBoard> live_;
     std::unique_ptr<link::UdpSocket> udp_;
@@ -120,6 +123,17 @@ std::unique_ptr<link::Link> Run::make_link() {
         return link::make_port_link(loop_, port, options_.baud != 0 ? options_.baud : profile_->line.baud);
     }
     return link::make_pty_link(loop_, options_.pty_name);
+}
+
+std::unique_ptr<link::Link> Run::make_host_link() {
+    const HostLine& line = options_.host;
+    if (!line.tcp.empty()) {
+        return link::make_tcp_listen_link(loop_, line.tcp);
+    }
+    if (!line.port.empty()) {
+        return link::make_port_link(loop_, line.port, line.baud);
+    }
+    return link::make_pty_link(loop_, line.pty_name);
 }
 
 void Run::set_up() {
@@ -152,8 +166,15 @@ void Run::set_up() {
     board_.emplace(profile_, services, options);
     wire_ = make_link();
     link_.emplace(*wire_, *clock_, fault::Direction::to_board);
-    for (const std::string& spec : options_.faults) {
-        link_->add(fault::fault_from_text(spec));
+    for (const std::string& text : options_.faults) {
+        const fault::FaultSpec spec = fault::fault_from_text(text);
+        if (!fault::is_for_printer(spec)) {
+            link_->add(spec);
+        } else if (board_->machine().breakdowns.add(SimTime{0}, fault::to_request(spec)) == 0) {
+            throw fault::FaultSpecError(
+                {fmt::format("fault \"{}\": too many faults of the printer; at most {}", text,
+                             printer::Breakdowns::most)});
+        }
     }
     live_.emplace(*board_, *link_, *clock_, &observers_);
 }
@@ -182,6 +203,12 @@ void Run::say_ready() {
     if (!options_.pty_name.empty()) {
         ready["name"] = options_.pty_name;
     }
+    if (host_link_) {
+        ready["host"] = {{"link", host_link_->kind()}, {"path", host_link_->path()}};
+        if (!options_.host.pty_name.empty()) {
+            ready["host"]["name"] = options_.host.pty_name;
+        }
+    }
     if (control_) {
         ready["control"] = options_.control;
     }
@@ -194,8 +221,9 @@ void Run::say_ready() {
     }
     err_.write(
         fmt::format("This is fauxboard, an emulator: there is no real printer here.\n"
-                    "{} on {}. Ctrl-C ends it.\n",
-                    profile_->title.empty() ? profile_->name : profile_->title, link_->describe()));
+                    "{} on {}{}. Ctrl-C ends it.\n",
+                    profile_->title.empty() ? profile_->name : profile_->title, link_->describe(),
+                    host_link_ ? ", its USB port on " + host_link_->describe() : std::string()));
 }
 
 void Run::reload() {
@@ -228,6 +256,9 @@ void Run::say_summary() {
     for (const fault::FaultStatus& status : link_->list()) {
         err_.write(host::fault_sentence(status) + "\n");
     }
+    for (const printer::Breakdown& breakdown : board_->machine().breakdowns.list()) {
+        err_.write(fault::breakdown_sentence(breakdown) + "\n");
+    }
 }
 
 void Run::operator()() {
@@ -240,6 +271,10 @@ void Run::operator()() {
     open_control();
     open_network();
     link_->open(*live_);
+    if (options_.host.wanted()) {
+        host_link_ = make_host_link();
+        host_link_->open(live_->attach(board::Channel::host, *host_link_));
+    }
     say_ready();
     if (options_.reload) {
         watch_.watch(profile_->files);
@@ -258,6 +293,9 @@ void Run::operator()() {
         udp_->close();
     }
     link_->close();
+    if (host_link_) {
+        host_link_->close();
+    }
     log_.finish(live_->now());
     say_summary();
 }

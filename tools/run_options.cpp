@@ -34,6 +34,34 @@ void declare_line(CLI::App& command, RunOptions& options) {
         "Reply at once instead of on the board's transmit tick");
 }
 
+/// The USB side, where a host program prints through the board while the screen shows it.
+void declare_host_line(CLI::App& command, RunOptions& options) {
+    CLI::Option* pty =
+        command
+            .add_option_function<std::string>(
+                "--host-pty",
+                [&options](const std::string& name) {
+                    options.host.pty = true;
+                    options.host.pty_name = name;
+                },
+                "The board's USB port for a host program: a pseudo-terminal, with a name of your choice")
+            ->type_name("[=LINK]")
+            ->expected(0, 1)
+            ->default_str("");
+    CLI::Option* port =
+        command.add_option("--host-port", options.host.port, "The same on a serial port")->type_name("DEV");
+    CLI::Option* tcp =
+        command.add_option("--host-tcp", options.host.tcp, "The same for one client of a socket")
+            ->type_name("HOST:PORT");
+    pty->excludes(port)->excludes(tcp);
+    port->excludes(tcp);
+    command.add_option("--host-baud", options.host.baud, "Bits per second of --host-port")
+        ->type_name("N")
+        ->check(CLI::Range(50U, 4'000'000U))
+        ->capture_default_str()
+        ->needs(port);
+}
+
 void declare_time(CLI::App& command, RunOptions& options) {
     command
         .add_option_function<std::string>(
@@ -79,6 +107,7 @@ void declare_run_options(CLI::App& command, RunOptions& options) {
         ->type_name("NAME|FILE")
         ->capture_default_str();
     declare_line(command, options);
+    declare_host_line(command, options);
     command.add_option("--sd", options.sd, "Folder that is the SD card (default: a small built-in card)")
         ->type_name("DIR");
     command
@@ -90,9 +119,10 @@ void declare_run_options(CLI::App& command, RunOptions& options) {
     declare_time(command, options);
     declare_talk(command, options);
     command
-        .add_option(
-            "--fault", options.faults,
-            "Make the line misbehave: drop:to_screen,every=5 (see `describe faults`); may be repeated")
+        .add_option("--fault", options.faults,
+                    "Make the line misbehave, or break the printer: drop:to_screen,every=5, jam:at=60s (see "
+                    "`describe "
+                    "faults`); may be repeated")
         ->type_name("SPEC")
         ->expected(1)
         ->take_all();

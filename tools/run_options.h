@@ -12,6 +12,17 @@
 
 namespace fauxboard::tools {
 
+/// Where the board's USB side is to be. At most one of them.
+struct HostLine {
+    bool pty = false;        ///< a pseudo-terminal of our own
+    std::string pty_name;    ///< symlink to it; empty: none
+    std::string port;        ///< a device
+    std::string tcp;         ///< "HOST:PORT"
+    unsigned baud = 115200;  ///< of a device, bit/s
+
+    bool wanted() const { return pty || !port.empty() || !tcp.empty(); }
+};
+
 /// What `fauxboard run` was asked for.
 struct RunOptions {
     std::string profile = "geeetech-a30t";
@@ -20,6 +31,7 @@ struct RunOptions {
     std::string udp;       ///< "HOST:PORT"; empty: none
     std::string pty_name;  ///< symlink to our pty; empty: none
     unsigned baud = 0;     ///< bit/s; 0: what the profile says
+    HostLine host;
     host::Speed speed;
     std::uint64_t seed = 1;
     std::string sd;                   ///< folder; empty: the card that the profile carries

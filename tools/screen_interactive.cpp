@@ -28,7 +28,7 @@ class TalkPane final : public host::LiveObserver {
     void on_received(SimTime, board::Channel, std::string_view line, board::Verdict) override {
         add("→", line, protocol::Direction::to_board, Ink::sent);
     }
-    void on_sent(SimTime, std::string_view line) override {
+    void on_sent(SimTime, board::Channel, std::string_view line) override {
         add("←", line, protocol::Direction::to_screen, Ink::came);
     }
     void on_notice(SimTime, board::Level, std::string_view text) override {

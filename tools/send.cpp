@@ -93,7 +93,7 @@ class Talk final : public link::LinkListener {
 
     void on_bytes(std::string_view bytes) override {
         splitter_.feed(bytes, [this](std::string_view line) {
-            log_->on_sent(clock_->now(), line);
+            log_->on_sent(clock_->now(), board::Channel::main, line);
             answered_ = true;
         });
         quiet_until_ = std::min(clock_->now() + wait(), limit_);
@@ -120,7 +120,7 @@ class Talk final : public link::LinkListener {
         }
         const std::string line = line_of(options_.commands[at_], options_.bare);
         const SimTime now = clock_->now();
-        log_->on_received(now, board::Channel::screen, std::string_view(line).substr(0, line.size() - 2),
+        log_->on_received(now, board::Channel::main, std::string_view(line).substr(0, line.size() - 2),
                           board::Verdict::accepted);
         link_->write(line);
         answered_ = false;

@@ -142,6 +142,12 @@ constexpr std::array table{
     ActionInfo{"job.select", "", "selects a file; raises file.selected, file.missing or file.unreadable",
                file_args, [](ActionContext& c, Args a) { c.printer.select_file(a[0].text); }},
     ActionInfo{"job.start", "", "starts the file selected, or resumes the paused job", {}, job_start},
+    ActionInfo{
+        "job.continue",
+        "",
+        "the user continues: a job that waits for that goes on, and so does a board that waits without one",
+        {},
+        [](ActionContext& c, Args) { c.printer.user_continues(); }},
     ActionInfo{"job.pause",
                "",
                "pauses: finishes the moves planned, parks the head, then raises job.paused; asked again "

@@ -172,9 +172,12 @@ constexpr std::array table{
                heater_args, heater_wait},
     ActionInfo{"heater.stop_waiting",
                "",
-               "breaks a wait off (M108)",
+               "breaks a wait, or the tuning of a controller, off (M108)",
                {},
-               [](ActionContext& c, Args) { c.printer.wait.cancel(c.printer.events); }},
+               [](ActionContext& c, Args) {
+                   c.printer.wait.cancel(c.printer.events);
+                   c.printer.stop_tuning();
+               }},
     ActionInfo{"heater.all_off", "", "both targets to 0", {}, heaters_off},
     ActionInfo{"heaters.reported",
                "",

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "emulator/behaviour/action_rows.h"
+#include "emulator/printer/resin_files.h"
 
 namespace fauxboard::behaviour::rows {
 namespace {
@@ -90,6 +91,19 @@ void print(ActionContext& c, Args a) {
     }
 }
 
+void remove(ActionContext& c, Args a) {
+    if (Resin* const resin = part(c)) {
+        resin->remove(a[0].is_text() ? a[0].text : std::string_view{});
+    }
+}
+
+template <std::string (*Text)(const printer::Printer&)>
+void write(ActionContext& c, Args a) {
+    if (Resin* const resin = part(c)) {
+        resin->write(a[0].is_text() ? a[0].text : std::string_view{}, Text(c.printer));
+    }
+}
+
 /// Each letter of the request that this code has a setting for.
 void config_set(ActionContext& c, Args) {
     Resin* const resin = part(c);
@@ -172,6 +186,13 @@ constexpr std::array table{
                start},
     ActionInfo{"resin.print", "", "opens a file and prints it (M6030); resin.outcome says what became of it",
                name_args, print},
+    ActionInfo{"resin.remove", "", "removes a file of the stick (M30); resin.outcome says what became of it",
+               name_args, remove},
+    ActionInfo{"resin.write_backup", "", "writes the settings into a file of the stick, as requests (M8512)",
+               name_args, write<printer::backup_text>},
+    ActionInfo{"resin.write_diagnostics", "",
+               "writes words of status and settings into a file of the stick (M8093)", name_args,
+               write<printer::diagnostics_text>},
     ActionInfo{"config.set",
                "",
                "settings of this code (M8xxx), by the letters of the request; the machine uses them after "

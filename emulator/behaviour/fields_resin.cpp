@@ -75,8 +75,12 @@ constexpr std::array own{
     seen("resin.board_fan", integer, "", "fan of the motherboard, 0 to 256: F of M4000, second",
          [](const Printer&, const Resin& r) { return r.board_fan(); }),
     seen("resin.outcome", text, "",
-         "of the file asked for last: opened, no_name, no_stick, missing, busy, unprintable",
+         "of the file asked for last: opened, no_name, no_stick, missing, busy, unprintable, written, "
+         "not_written, "
+         "removed, not_removed",
          [](const Printer&, const Resin& r) { return to_string(r.outcome); }),
+    seen("resin.replaced", boolean, "", "the file written last replaced another one",
+         [](const Printer&, const Resin& r) { return r.replaced; }),
     seen("resin.asked", text, "", "name that was asked for last, without quotes, colon and leading slash",
          [](const Printer&, const Resin& r) { return std::string_view{r.asked}; }),
     seen("resin.file", text, "", "file opened last: its name, or /folder/name",

@@ -49,6 +49,20 @@ void load_pid(const Json& node, const std::string& pointer, Findings& findings, 
     reader.finish();
 }
 
+void load_protection(const Json& node, const std::string& pointer, Findings& findings,
+                     printer::ProtectionConfig& out) {
+    ObjectReader reader(node, pointer, findings);
+    reader.number("min_c", out.min_c, -100, 1000);
+    reader.number("max_c", out.max_c, 0, 1000);
+    reader.number("watch_s", out.watch_s, 0.1, 3600);
+    reader.number("watch_rise_c", out.watch_rise_c, 0, 100);
+    reader.number("runaway_s", out.runaway_s, 0.1, 3600);
+    reader.number("runaway_c", out.runaway_c, 0, 500);
+    reader.number("open_reads_c", out.open_reads_c, -300, 2000);
+    reader.number("shorted_reads_c", out.shorted_reads_c, -300, 2000);
+    reader.finish();
+}
+
 void load_heater(const Json& node, const std::string& pointer, Findings& findings,
                  printer::HeaterConfig& out) {
     ObjectReader reader(node, pointer, findings);
@@ -57,6 +71,9 @@ void load_heater(const Json& node, const std::string& pointer, Findings& finding
     }
     if (const Json* pid = reader.get("pid")) {
         load_pid(*pid, reader.pointer("pid"), findings, out.pid);
+    }
+    if (const Json* protection = reader.get("protection")) {
+        load_protection(*protection, reader.pointer("protection"), findings, out.protection);
     }
     reader.number("max_target_c", out.max_target_c, 0, 1000);
     reader.number("done_within_c", out.done_within_c, 0, 100);
@@ -263,6 +280,7 @@ void load_filament(const Json& node, const std::string& pointer, Findings& findi
     reader.number("piece_commit_s", out.piece_commit_s, 0, 600);
     reader.integer("feed_mm_s", out.feed_mm_s, 0, 1000);
     reader.number("min_extrude_c", out.min_extrude_c, 0, 500);
+    reader.number("detector_mm", out.detector_mm, 0, 10000);
     reader.finish();
 }
 
@@ -367,6 +385,11 @@ void load_machine(const Json& node, const std::string& pointer, Findings& findin
     }
     if (const Json* part = reader.get("resin")) {
         load_resin(*part, reader.pointer("resin"), findings, machine.resin.emplace());
+    }
+    if (const Json* part = reader.get("host")) {
+        ObjectReader host(*part, reader.pointer("host"), findings);
+        host.number("busy_s", machine.host.busy_s, 0, 3600);
+        host.finish();
     }
     reader.boolean("udisk_port", machine.udisk_port);
     reader.integer("board_fan_percent", machine.board_fan_percent, 0, 100);

@@ -19,8 +19,23 @@ namespace fauxboard::behaviour {
 
 using printer::SimTime;
 
-/// How the line to the screen is spoken.
+/// The lines of a control board.
+enum class Channel : std::uint8_t {
+    main,     ///< the one `run --port` opens: the plug of a touch screen, the serial line of a resin board
+    host,     ///< the USB port of a board with a screen, where a PC sends G-code
+    network,  ///< datagrams
+};
+inline constexpr std::size_t channel_count = 3;
+
+/// How commands are framed on the main line.
+enum class Framing : std::uint8_t {
+    smartto,  ///< "N-0 M105*10"
+    gcode,    ///< "M105", or "N12 M105*36"; the number and the checksum are taken off and not judged
+};
+
+/// How the main line is spoken.
 struct LineConfig {
+    Framing framing = Framing::smartto;
     unsigned baud = 115200;
     protocol::ChecksumPolicy checksum = protocol::ChecksumPolicy::required;
     unsigned queue_lines = 64;  ///< requests waiting for their tick; more are lost, as in the board's buffer
@@ -37,6 +52,7 @@ struct Frame {
     protocol::FrameStyle style = protocol::FrameStyle::framed;
     protocol::LineEnd end = protocol::LineEnd::crlf;
     bool chunk = false;  ///< no lines: the block of a file that transfer.block read
+    std::optional<Channel> to;  ///< nothing: the channel that asked; the main line, if nobody asked
     std::vector<Line> lines;
     std::vector<ActionCall> then;  ///< done when it is queued
     std::vector<const Field*>
@@ -117,12 +133,9 @@ class Profile {
     std::shared_ptr<const printer::MachineConfig> machine;
     std::array<std::vector<Rule>, printer::event_count> events;
 
-    /// Rules for a request of the screen, or of the USB host; null when there are none.
-    const std::vector<Rule>* screen_rules(const protocol::Command& command) const {
-        return find(screen_, command);
-    }
-    const std::vector<Rule>* host_rules(const protocol::Command& command) const {
-        return find(host_, command);
+    /// Rules for a request on the main line and the network, or of the USB host; null when there are none.
+    const std::vector<Rule>* rules_for(Channel channel, const protocol::Command& command) const {
+        return find(channel == Channel::host ? host_requests : requests, command);
     }
 
     struct RequestTable {
@@ -132,8 +145,8 @@ class Profile {
         CodeTable codes;                       ///< by code_key
         std::map<std::string, std::vector<Rule>, std::less<>> words;
     };
-    RequestTable screen_;
-    RequestTable host_;
+    RequestTable requests;
+    RequestTable host_requests;
 
     static std::uint32_t code_key(char letter, std::uint32_t number) {
         return static_cast<std::uint32_t>(static_cast<unsigned char>(letter)) << 16U | (number & 0xFFFFU);

@@ -58,6 +58,7 @@ void Loader::load_head(ObjectReader& root) {
     root.required("protocol");
     root.choice("protocol", protocols, protocol);
     style_ = protocol == 0 ? protocol::FrameStyle::framed : protocol::FrameStyle::bare;
+    profile_->line.framing = static_cast<Framing>(protocol);
     if (const Json* line = root.get("line")) {
         load_line(*line, root.pointer("line"));
     }
@@ -190,6 +191,12 @@ void Loader::load_frame(const Json& node, const std::string& pointer, Frame& fra
     std::size_t end = 0;
     reader.choice("end", ends, end);
     frame.end = static_cast<protocol::LineEnd>(end);
+    constexpr std::array<std::string_view, channel_count> channels{"main", "host", "network"};
+    std::size_t to = channels.size();
+    reader.choice("to", channels, to);
+    if (to < channels.size()) {
+        frame.to = static_cast<Channel>(to);
+    }
     const Json* text = reader.get("line");
     const Json* lines = reader.get("lines");
     reader.boolean("chunk", frame.chunk);
@@ -367,9 +374,10 @@ std::shared_ptr<const Profile> Loader::load() {
         profile_->boot = RuleCompiler(findings_, names_, frame_index_, *machine_).sends(n, p);
     });
     section("schedule", [&](const Json& n, const std::string& p) { load_schedule(n, p); });
-    section("requests", [&](const Json& n, const std::string& p) { load_requests(n, p, profile_->screen_); });
+    section("requests",
+            [&](const Json& n, const std::string& p) { load_requests(n, p, profile_->requests); });
     section("host_requests",
-            [&](const Json& n, const std::string& p) { load_requests(n, p, profile_->host_); });
+            [&](const Json& n, const std::string& p) { load_requests(n, p, profile_->host_requests); });
     section("events", [&](const Json& n, const std::string& p) { load_events(n, p); });
     root.finish();
     if (!findings_.problems.empty()) {

@@ -318,6 +318,7 @@ Rule RuleCompiler::rule(const Json& node, const std::string& pointer) {
     if (const Json* frames = reader.get("send")) {
         out.send = sends(*frames, reader.pointer("send"));
     }
+    reader.boolean("at_once", out.at_once);
     reader.finish();
     return out;
 }

@@ -68,6 +68,7 @@ struct Rule {
     std::vector<Condition> when;
     std::vector<ActionCall> actions;
     std::vector<Send> send;
+    bool at_once = false;  ///< of the USB host: carried out as it comes in, ahead of what waits
 };
 
 }  // namespace fauxboard::behaviour

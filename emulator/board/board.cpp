@@ -1,10 +1,12 @@
 #include "emulator/board/board.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "emulator/behaviour/eeprom.h"
 #include "protocol/command.h"
+#include "protocol/host_line.h"
 
 namespace fauxboard::board {
 namespace {
@@ -19,6 +21,9 @@ using printer::never;
 constexpr std::size_t outbox_bytes = 12 * 1024;
 constexpr std::size_t outbox_messages = 128;
 constexpr std::size_t inbox_bytes = 8 * 1024;
+/// Of the USB side: Marlin's queue of four lines of 96 bytes, and the ring of 128 bytes behind its port.
+constexpr std::size_t host_inbox_bytes = 4 * 96 + 128;
+constexpr std::size_t host_inbox_lines = 8;
 /// Longest message: a card listing. Its last lines must always fit, entries before them may be left out.
 constexpr std::size_t scratch_bytes = 8 * 1024;
 constexpr std::size_t closing_room = 256;
@@ -30,6 +35,8 @@ constexpr std::size_t output_limit = 16 * 1024;
 constexpr std::size_t told_limit = 256;
 /// Events that one step may work off: a profile whose events raise each other must come to an end.
 constexpr int event_limit = 256;
+/// A reply to the USB side that begins so is all the acknowledgement its command gets.
+constexpr std::string_view acknowledgement = "ok";
 
 /// A code ("M2134"), not a word ("log"): words are no commands to the board and take no tick. The recorded
 /// one answered an M2134 that came 0.8 ms behind a log line as fast as one that came alone.
@@ -46,8 +53,10 @@ Board::Board(std::shared_ptr<const behaviour::Profile> profile, printer::Service
       wheel_(*profile_),
       inbox_(inbox_bytes, profile_->line.queue_lines),
       outbox_(outbox_bytes, outbox_messages),
-      output_(first_output),
+      host_inbox_(host_inbox_bytes, host_inbox_lines),
       scratch_(scratch_bytes) {
+    port(Channel::main).connected = true;
+    port(Channel::main).output = OutputBuffer(first_output);
     if (services.eeprom != nullptr) {
         machine_.eeprom_image = services.eeprom->load().value_or(std::string{});
     }
@@ -74,8 +83,11 @@ void Board::power_on(SimTime now) {
     inbox_.clear();
     outbox_.clear();
     network_ = NetworkOutbox();
-    screen_splitter_.reset();
-    host_splitter_.reset();
+    host_inbox_.clear();
+    asker_ = Channel::main;
+    for (Port& each : ports_) {
+        each.splitter.reset();
+    }
     machine_.power_on(now);
     for (std::size_t i = 0; i < variables_.size(); ++i) {
         variables_[i] = profile_->variables[i].initial;
@@ -113,39 +125,72 @@ void Board::reload(std::shared_ptr<const behaviour::Profile> profile) {
     told_.clear();
 }
 
-void Board::receive(SimTime now, std::string_view bytes) {
+void Board::receive(SimTime now, std::string_view bytes, Channel channel) {
     catch_up(now);
-    screen_splitter_.feed(bytes, [this](std::string_view line) { take_line(Channel::screen, line); });
+    port(channel).splitter.feed(bytes, [this, channel](std::string_view line) { take_line(channel, line); });
 }
 
-void Board::receive_host(SimTime now, std::string_view bytes) {
-    catch_up(now);
-    host_splitter_.feed(bytes, [this](std::string_view line) { take_line(Channel::host, line); });
+std::uint64_t Board::lines_too_long() const {
+    return std::accumulate(
+        ports_.begin(), ports_.end(), std::uint64_t{0},
+        [](std::uint64_t sum, const Port& each) { return sum + each.splitter.too_long(); });
+}
+
+std::uint64_t Board::nul_bytes() const {
+    return std::accumulate(ports_.begin(), ports_.end(), std::uint64_t{0},
+                           [](std::uint64_t sum, const Port& each) { return sum + each.splitter.nuls(); });
+}
+
+bool Board::quiet() const {
+    return std::all_of(ports_.begin(), ports_.end(), [](const Port& each) { return each.output.empty(); });
+}
+
+void Board::tell_received(Channel channel, std::string_view line, Verdict verdict) {
+    if (options_.observer != nullptr) {
+        options_.observer->on_received(time_, channel, line, verdict);
+    }
 }
 
 void Board::take_line(Channel channel, std::string_view line) {
     ++counters_.lines_received;
-    const protocol::ChecksumPolicy policy =
-        channel == Channel::screen ? profile_->line.checksum : protocol::ChecksumPolicy::if_present;
-    const protocol::Unframed unframed = protocol::unframe(line, policy);
+    if (channel == Channel::host) {
+        machine_.hear_host(time_);
+        take_host_line(line);
+        return;
+    }
+    std::string_view body;
+    const bool bad = !unframe(line, body);
     Verdict verdict = Verdict::accepted;
-    const bool waits = options_.pacing ? is_code(unframed.body) : output_.size() >= output_limit;
-    const bool at_once = channel == Channel::host || !waits;
-    if (unframed.fault != protocol::FrameFault::none) {
+    const bool paced = options_.pacing && channel == Channel::main;
+    const bool waits = paced ? is_code(body) : port(channel).output.size() >= output_limit;
+    if (machine_.hung()) {
+        ++counters_.requests_lost;
+        verdict = Verdict::queue_full;
+    } else if (bad) {
         ++counters_.bad_frames;
         verdict = Verdict::bad_frame;
-    } else if (!at_once && !inbox_.push(unframed.body)) {
+    } else if (waits && !inbox_.push(body)) {
         ++counters_.requests_lost;
         verdict = Verdict::queue_full;
     }
-    if (options_.observer != nullptr) {
-        options_.observer->on_received(time_, channel, line, verdict);
-    }
-    if (verdict == Verdict::accepted && at_once) {
+    tell_received(channel, line, verdict);
+    if (verdict == Verdict::accepted && !waits) {
         machine_.advance(time_);
-        execute(channel, unframed.body);
+        execute(channel, body);
         settle();
+        run_host();
     }
+}
+
+/// Takes a request out of the frame that the main line has. False when its checksum is wrong.
+bool Board::unframe(std::string_view line, std::string_view& body) const {
+    if (profile_->line.framing != behaviour::Framing::smartto) {
+        body = protocol::unframe_host_line(line).body;
+        return true;
+    }
+    const protocol::Unframed unframed = protocol::unframe(line, profile_->line.checksum);
+    body = unframed.body;
+    return unframed.fault == protocol::FrameFault::none;
 }
 
 void Board::execute(Channel channel, std::string_view body) {
@@ -153,11 +198,17 @@ void Board::execute(Channel channel, std::string_view body) {
     if (!protocol::parse_command(body, command)) {
         return;  // a frame around nothing
     }
-    const std::vector<Rule>* rules =
-        channel == Channel::screen ? profile_->screen_rules(command) : profile_->host_rules(command);
+    const std::vector<Rule>* rules = profile_->rules_for(channel, command);
+    asker_ = channel == Channel::network ? channel : Channel::main;
     if (rules == nullptr) {
+        if (channel == Channel::host && machine_.host.run_code()) {
+            return;
+        }
         ++counters_.unknown_codes;
         report_unknown(command.word, "is not in the profile");
+        if (channel == Channel::host) {
+            machine_.events.raise(printer::EventId::host_unknown);
+        }
     } else if (!run_rules(*rules, &command)) {
         ++counters_.unmatched;
         report_unknown(body, "has parameters that no rule of the profile is for");
@@ -199,8 +250,13 @@ void Board::run_rule(const Rule& rule, const Scope& here) {
 
 /// After anything that may have changed the machine: events, and what the main loop lost by it.
 void Board::settle() {
+    asker_ = Channel::main;
     if (!machine_.events.empty()) {
         run_events();
+    }
+    if (machine_.take_reset()) {
+        power_on(time_);
+        return;
     }
     if (const int rounds = machine_.motion.take_lost_rounds(); rounds > 0) {
         wheel_.lose_rounds(rounds);
@@ -229,14 +285,19 @@ void Board::run_events() {
 }
 
 void Board::send(const Send& entry, const Scope& here) {
-    if (!behaviour::all_hold(entry.when, here)) {
+    if (machine_.hung() || !behaviour::all_hold(entry.when, here)) {
         return;
     }
     const Frame& frame = profile_->frames[entry.frame];
+    const Channel to = frame.to.value_or(asker_);
+    if (to == Channel::network ? !network_.asking() : !port(to).connected) {
+        return;
+    }
     for (unsigned i = 0; i < entry.times; ++i) {
-        const bool at_once = !network_.asking() && (entry.now || !options_.pacing);
+        const bool at_once = to != Channel::network && (entry.now || !options_.pacing || to != Channel::main);
         const bool short_one = frame.lines.size() == 1 && !frame.lines[0].for_each_entry;
-        Draft draft{at_once ? output_.room(short_one ? line_bytes : scratch_bytes)
+        OutputBuffer& output = port(to).output;
+        Draft draft{at_once ? output.room(short_one ? line_bytes : scratch_bytes)
                             : std::span<char>(scratch_)};
         compose(frame, here, draft);
         wheel_.sent(entry.frame, machine_);
@@ -247,13 +308,19 @@ void Board::send(const Send& entry, const Scope& here) {
             }
         }
         const std::string_view message(draft.room.data(), draft.size);
-        if (network_.asking()) {
+        if (to == Channel::network) {
             network_.add(message, frame.chunk);
             counters_.lines_sent += draft.lines;
+            if (!frame.chunk) {
+                tell_sent(to, message);
+            }
         } else if (at_once) {
-            output_.grow(draft.size);
+            output.grow(draft.size);
             counters_.lines_sent += draft.lines;
-            tell_sent(message);
+            if (to == Channel::host && message.starts_with(acknowledgement)) {
+                machine_.host.acknowledge();
+            }
+            tell_sent(to, message);
         } else if (!outbox_.push(message)) {
             ++counters_.messages_lost;
             notice(Level::warning, "message " + frame.name + " lost: the board's transmit queue is full");
@@ -306,16 +373,16 @@ void Board::compose(const Frame& frame, const Scope& here, Draft& draft) {
 
 /// A message out of the queue goes on the wire.
 void Board::emit(std::string_view message) {
-    output_.append(message);
+    port(Channel::main).output.append(message);
     counters_.lines_sent += static_cast<std::uint64_t>(std::count(message.begin(), message.end(), '\n'));
-    tell_sent(message);
+    tell_sent(Channel::main, message);
 }
 
-void Board::tell_sent(std::string_view message) {
+void Board::tell_sent(Channel channel, std::string_view message) {
     while (options_.observer != nullptr && !message.empty()) {
         const std::size_t end = std::min(message.find('\n'), message.size());
         const std::string_view line = message.substr(0, end);
-        options_.observer->on_sent(time_, line.substr(0, line.find_last_not_of("\r\n") + 1));
+        options_.observer->on_sent(time_, channel, line.substr(0, line.find_last_not_of("\r\n") + 1));
         message.remove_prefix(std::min(end + 1, message.size()));
     }
 }
@@ -333,6 +400,9 @@ SimTime Board::next_tick() const {
 }
 
 SimTime Board::next_due() const {
+    if (machine_.hung()) {
+        return machine_.next_event();
+    }
     const SimTime wheel =
         wheel_.next_slot() <= time_ ? wheel_.next_slot() : wheel_.next_due(scope(), machine_.restless());
     return std::min({machine_.next_event(), next_tick(), wheel});
@@ -340,13 +410,16 @@ SimTime Board::next_due() const {
 
 /// A time before which nothing is due, found without asking which of the wheel's slots may send.
 SimTime Board::nothing_before() const {
+    if (machine_.hung()) {
+        return machine_.next_event();
+    }
     return std::min({machine_.next_event(), next_tick(), wheel_.next_slot()});
 }
 
 /// Goes through the slots before `end`. Those passed over because nothing could come of them are among them,
 /// for their rounds to count.
 void Board::run_slots(SimTime end) {
-    while (wheel_.next_slot() < end && output_.size() < output_limit) {
+    while (!machine_.hung() && wheel_.next_slot() < end && port(Channel::main).output.size() < output_limit) {
         const behaviour::Slot* slot = wheel_.turn(scope());
         if (slot != nullptr) {
             Send entry;
@@ -367,13 +440,17 @@ void Board::run_tick() {
         const std::string_view front = inbox_.front();
         const std::size_t size = front.copy(line.data(), line.size());
         inbox_.pop();  // before it is executed: a reset empties the queue
-        execute(Channel::screen, {line.data(), size});
+        execute(Channel::main, {line.data(), size});
         settle();
+        run_host();
     }
 }
 
 SimTime Board::advance(SimTime now) {
-    while (output_.empty()) {
+    while (quiet()) {
+        if (!host_inbox_.empty()) {
+            run_host();  // what its output had no room for may go on
+        }
         const SimTime due = next_due();
         if (due > now) {
             time_ = std::max(time_, now);
@@ -388,15 +465,16 @@ void Board::step(SimTime due) {
     time_ = std::max(time_, due);
     machine_.advance(time_);
     settle();
+    run_host();
     run_slots(time_ + SimTime{1});
-    if (next_tick() <= time_) {
+    if (!machine_.hung() && next_tick() <= time_) {
         run_tick();
     }
 }
 
 void Board::catch_up(SimTime now) {
     // With so much output untaken the slots stand still; they go on, late, when it has been taken.
-    while (nothing_before() < now && output_.size() < output_limit) {
+    while (nothing_before() < now && port(Channel::main).output.size() < output_limit) {
         const SimTime due = next_due();
         if (due >= now) {
             // Nothing comes of the slots up to here. They are gone through now, else the next call would find

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <set>
 #include <span>
@@ -22,14 +23,19 @@
 
 namespace fauxboard::board {
 
+using behaviour::Channel;
 using behaviour::Level;
 using printer::SimTime;
 
-/// The two lines of a control board.
-enum class Channel : std::uint8_t {
-    screen,  ///< the 4-pin plug of the touch screen
-    host,    ///< the USB port, where a PC sends G-code
-};
+/// Who speaks on a line, for logs: the other end, and the board's own.
+constexpr std::string_view other_end(Channel channel) {
+    constexpr std::string_view names[] = {"screen", "host", "network"};
+    return names[static_cast<std::size_t>(channel)];
+}
+constexpr std::string_view own_end(Channel channel) {
+    constexpr std::string_view names[] = {"board", "usb", "module"};
+    return names[static_cast<std::size_t>(channel)];
+}
 
 /// What became of a received line.
 enum class Verdict : std::uint8_t { accepted, bad_frame, queue_full };
@@ -41,8 +47,8 @@ class Observer {
     /// One line arrived, line end removed, prefix and checksum still on it. The verdict is that of the
     /// moment: whether it was taken; an unknown code is found out only when the line is executed.
     virtual void on_received(SimTime now, Channel channel, std::string_view line, Verdict verdict) = 0;
-    /// One line was put on the wire to the screen, line end removed.
-    virtual void on_sent(SimTime now, std::string_view line) = 0;
+    /// One line was put on the wire, line end removed.
+    virtual void on_sent(SimTime now, Channel channel, std::string_view line) = 0;
     /// Something a person wants to know: a clamped value, an unknown code, a lost message.
     virtual void on_notice(SimTime now, Level level, std::string_view text) = 0;
 };
@@ -60,7 +66,7 @@ struct Counters {
     std::uint64_t bad_frames = 0;  ///< wrong, missing or malformed checksum where one was needed
     std::uint64_t unknown_codes = 0;
     std::uint64_t unmatched = 0;      ///< known code, but no rule for its parameters
-    std::uint64_t requests_lost = 0;  ///< more waiting than the board has room for
+    std::uint64_t requests_lost = 0;  ///< more waiting than the board has room for; or it hung
     std::uint64_t messages_lost = 0;  ///< same, outwards
     std::uint64_t lines_cut = 0;      ///< frames longer than a line may be
 };
@@ -83,10 +89,11 @@ class Board final : private behaviour::NoticeSink {
     /// anew.
     void power_on(SimTime now);
 
-    /// Bytes from the screen; any split of the stream gives the same result.
-    void receive(SimTime now, std::string_view bytes);
-    /// Bytes from the USB side.
-    void receive_host(SimTime now, std::string_view bytes);
+    /// Bytes from the other end of a line; any split of the stream gives the same result.
+    void receive(SimTime now, std::string_view bytes, Channel channel = Channel::main);
+    /// Whether somebody is at the other end of a line: of the main line somebody always is, of the others at
+    /// first nobody. What would go to nobody is not said.
+    void connect(Channel channel, bool connected) { ports_[index(channel)].connected = connected; }
     /// A datagram of the network from `peer`, a number that is not 0: one request, or a piece of the file
     /// that it uploads. Carried out at once; what the board says to it is for take_datagrams().
     void receive_datagram(SimTime now, std::uint64_t peer, std::string_view bytes);
@@ -101,6 +108,8 @@ class Board final : private behaviour::NoticeSink {
     /// Carries out one compiled action, as world() does. What the machine has against it, also told as a
     /// notice; empty when it was done.
     std::string act(SimTime now, const behaviour::ActionCall& call);
+    /// Calls `use` with the machine brought up to now, and sees to what comes of it.
+    void tinker(SimTime now, const std::function<void(printer::Printer& machine)>& use);
     /// Sends one of the profile's frames, as a rule does; it has no request to take parameters from.
     void send_frame(SimTime now, const behaviour::Send& entry);
     /// Puts bytes on the wire to the screen, at once and as they are but for the line end, which is added
@@ -114,9 +123,15 @@ class Board final : private behaviour::NoticeSink {
     /// next; that may be in the past if it stopped early.
     SimTime advance(SimTime now);
 
-    /// Bytes for the screen, since the last clear_output().
-    std::string_view output() const { return output_.view(); }
-    void clear_output() { output_.clear(); }
+    /// Bytes for the other end of a line, since the last clear_output(), which is for all of them.
+    std::string_view output(Channel channel = Channel::main) const {
+        return ports_[index(channel)].output.view();
+    }
+    void clear_output() {
+        for (Port& port : ports_) {
+            port.output.clear();
+        }
+    }
     /// The moment of the last thing done.
     SimTime time() const { return time_; }
 
@@ -125,8 +140,8 @@ class Board final : private behaviour::NoticeSink {
     void reload(std::shared_ptr<const behaviour::Profile> profile);
 
     const Counters& counters() const { return counters_; }
-    std::uint64_t lines_too_long() const { return screen_splitter_.too_long() + host_splitter_.too_long(); }
-    std::uint64_t nul_bytes() const { return screen_splitter_.nuls() + host_splitter_.nuls(); }
+    std::uint64_t lines_too_long() const;
+    std::uint64_t nul_bytes() const;
     const behaviour::Profile& profile() const { return *profile_; }
     printer::Printer& machine() { return machine_; }
     const printer::Printer& machine() const { return machine_; }
@@ -134,8 +149,22 @@ class Board final : private behaviour::NoticeSink {
     std::span<const double> variables() const { return variables_; }
 
   private:
+    /// One of the board's lines.
+    struct Port {
+        protocol::LineSplitter splitter;
+        OutputBuffer output{0};
+        bool connected = false;
+    };
+    static constexpr std::size_t index(Channel channel) { return static_cast<std::size_t>(channel); }
+    Port& port(Channel channel) { return ports_[index(channel)]; }
+    const Port& port(Channel channel) const { return ports_[index(channel)]; }
+
     void notice(Level level, std::string_view text) override;
     void take_line(Channel channel, std::string_view line);
+    void take_host_line(std::string_view line);
+    void tell_received(Channel channel, std::string_view line, Verdict verdict);
+    void run_host();
+    bool unframe(std::string_view line, std::string_view& body) const;
     void execute(Channel channel, std::string_view body);
     void take_piece(std::uint64_t peer, const protocol::Chunk& chunk);
     void take_request(std::string_view bytes);
@@ -154,7 +183,8 @@ class Board final : private behaviour::NoticeSink {
     void compose_line(const behaviour::Frame& frame, const behaviour::FrameTemplate& text,
                       const behaviour::Scope& scope, std::size_t end, Draft& draft);
     void emit(std::string_view message);
-    void tell_sent(std::string_view message);
+    void tell_sent(Channel channel, std::string_view message);
+    bool quiet() const;
     void step(SimTime due);
     void catch_up(SimTime now);
     void run_slots(SimTime end);
@@ -169,12 +199,12 @@ class Board final : private behaviour::NoticeSink {
     Options options_;
     printer::Printer machine_;
     Wheel wheel_;
-    protocol::LineSplitter screen_splitter_;
-    protocol::LineSplitter host_splitter_;
-    MessageQueue inbox_;
-    MessageQueue outbox_;
-    OutputBuffer output_;
+    std::array<Port, behaviour::channel_count> ports_;
     NetworkOutbox network_;
+    MessageQueue inbox_;             ///< of the main line
+    MessageQueue outbox_;            ///< same
+    MessageQueue host_inbox_;        ///< of the USB side
+    Channel asker_ = Channel::main;  ///< whom a frame goes to that does not say it itself
     std::vector<char> scratch_;
     std::vector<double> variables_;
     Counters counters_;

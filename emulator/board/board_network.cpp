@@ -31,7 +31,7 @@ bool may_be_request(std::string_view bytes) {
 
 void Board::receive_datagram(SimTime now, std::uint64_t peer, std::string_view bytes) {
     catch_up(now);
-    if (peer == Transfer::serial_line || network_.full()) {
+    if (peer == Transfer::serial_line || network_.full() || machine_.hung()) {
         ++counters_.requests_lost;
         return;
     }
@@ -55,6 +55,7 @@ void Board::receive_datagram(SimTime now, std::uint64_t peer, std::string_view b
 void Board::take_piece(std::uint64_t peer, const protocol::Chunk& chunk) {
     machine_.transfer.piece(time_, peer, chunk.fault == protocol::ChunkFault::none, chunk.offset,
                             chunk.payload);
+    asker_ = Channel::network;
     run_rules(profile_->events[static_cast<std::size_t>(printer::EventId::transfer_piece)], nullptr);
 }
 
@@ -64,12 +65,13 @@ void Board::take_request(std::string_view bytes) {
         return;
     }
     ++counters_.lines_received;
-    const protocol::Unframed unframed = protocol::unframe(line, profile_->line.checksum);
-    if (unframed.fault != protocol::FrameFault::none) {
-        ++counters_.bad_frames;
-        return;
+    std::string_view body;
+    const bool bad = !unframe(line, body);
+    counters_.bad_frames += bad ? 1 : 0;
+    tell_received(Channel::network, line, bad ? Verdict::bad_frame : Verdict::accepted);
+    if (!bad) {
+        execute(Channel::network, body);
     }
-    execute(Channel::screen, unframed.body);
 }
 
 }  // namespace fauxboard::board

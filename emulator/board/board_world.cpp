@@ -47,7 +47,16 @@ std::string Board::act(SimTime now, const behaviour::ActionCall& call) {
         power_on(time_);
     }
     settle();
+    run_host();
     return watch.refusal;
+}
+
+void Board::tinker(SimTime now, const std::function<void(printer::Printer& machine)>& use) {
+    catch_up(now);
+    machine_.advance(time_);
+    use(machine_);
+    machine_.advance(time_);
+    settle();
 }
 
 void Board::send_frame(SimTime now, const behaviour::Send& entry) {

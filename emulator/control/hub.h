@@ -27,7 +27,7 @@ class Hub final : public board::Observer {
 
     void on_received(SimTime now, board::Channel channel, std::string_view line,
                      board::Verdict verdict) override;
-    void on_sent(SimTime now, std::string_view line) override;
+    void on_sent(SimTime now, board::Channel channel, std::string_view line) override;
     void on_notice(SimTime now, board::Level level, std::string_view text) override;
 
     Target& target() { return target_; }

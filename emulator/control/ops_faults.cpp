@@ -1,17 +1,22 @@
-// Faults of the tested line, while it runs.
+// Faults of the tested line and of the printer behind it, while it runs: the same verbs for both.
 
 #include <fmt/format.h>
 
 #include <array>
+#include <vector>
 
+#include "emulator/behaviour/nearest.h"
 #include "emulator/control/hub.h"
 #include "emulator/control/op_rows.h"
+#include "emulator/fault/printer_fault.h"
 #include "emulator/fault/spec.h"
 
 namespace fauxboard::control::rows {
 namespace {
 
 using enum ParamType;
+using printer::Breakdowns;
+using printer::Printer;
 
 FaultControl& faults(const Call& call) {
     FaultControl* all = call.target.faults();
@@ -32,9 +37,14 @@ auto with_spec(const Call& call, F&& use) {
 }
 
 [[noreturn]] void unknown_fault(const Json& id) {
+    std::vector<std::string_view> names;
+    for (const printer::BreakdownInfo& info : printer::breakdowns()) {
+        names.push_back(info.name);
+    }
     throw ControlError(
         ErrorCode::unknown_fault,
-        fmt::format("There is no fault {}; {{\"op\": \"faults.list\"}} lists them.", id.dump()));
+        fmt::format("There is no fault {}; {{\"op\": \"faults.list\"}} lists them.", id.dump()),
+        id.is_string() ? behaviour::nearest(id.get_ref<const std::string&>(), names) : std::string_view{});
 }
 
 fault::FaultId fault_id(const Call& call) {
@@ -45,54 +55,110 @@ fault::FaultId fault_id(const Call& call) {
     return id.get<fault::FaultId>();
 }
 
+Json add_to_printer(const Call& call, const fault::FaultSpec& spec) {
+    unsigned number = 0;
+    call.board.tinker(call.now,
+                      [&](Printer& p) { number = p.breakdowns.add(call.now, fault::to_request(spec)); });
+    if (number == 0) {
+        throw ControlError(ErrorCode::refused,
+                           fmt::format("The printer has {} faults, which is the most; take some away first.",
+                                       Breakdowns::most));
+    }
+    return fault::printer_fault_id(number);
+}
+
+/// By id, or all of one kind by its name. False when there is none.
+bool remove_from_printer(const Call& call, const std::string& id) {
+    bool done = false;
+    call.board.tinker(call.now, [&](Printer& p) {
+        const printer::BreakdownInfo* info = printer::find_breakdown(id);
+        done = info != nullptr ? p.breakdowns.remove(info->id) != 0
+                               : p.breakdowns.remove(fault::printer_fault_number(id));
+    });
+    return done;
+}
+
 Answer add(const Call& call) {
-    FaultControl& all = faults(call);
-    return with_spec(call, [&](const fault::FaultSpec& spec) { return Json{{"fault", all.add(spec)}}; });
+    return with_spec(call, [&](const fault::FaultSpec& spec) {
+        return fault::is_for_printer(spec) ? Json{{"fault", add_to_printer(call, spec)}}
+                                           : Json{{"fault", faults(call).add(spec)}};
+    });
 }
 
 Answer change(const Call& call) {
+    const Json& id = call.at("fault");
+    if (id.is_string()) {
+        return with_spec(call, [&](const fault::FaultSpec& spec) {
+            if (!fault::is_for_printer(spec)) {
+                throw ControlError(ErrorCode::bad_arguments,
+                                   "A fault of the printer can be changed to another of the printer only.");
+            }
+            if (!remove_from_printer(call, id.get_ref<const std::string&>())) {
+                unknown_fault(id);
+            }
+            return Json{{"fault", add_to_printer(call, spec)}};
+        });
+    }
     FaultControl& all = faults(call);
-    const fault::FaultId id = fault_id(call);
-    if (!with_spec(call, [&](const fault::FaultSpec& spec) { return all.change(id, spec); })) {
+    const fault::FaultId number = fault_id(call);
+    if (!with_spec(call, [&](const fault::FaultSpec& spec) { return all.change(number, spec); })) {
         unknown_fault(id);
     }
-    return Json{{"fault", id}};
+    return Json{{"fault", number}};
 }
 
 Answer remove(const Call& call) {
-    FaultControl& all = faults(call);
-    const fault::FaultId id = fault_id(call);
-    if (!all.remove(id)) {
+    const Json& id = call.at("fault");
+    const bool done = id.is_string() ? remove_from_printer(call, id.get_ref<const std::string&>())
+                                     : faults(call).remove(fault_id(call));
+    if (!done) {
         unknown_fault(id);
     }
     return Json::object();
 }
 
 Answer clear(const Call& call) {
-    faults(call).clear();
+    call.board.tinker(call.now, [](Printer& p) { p.breakdowns.clear(); });
+    if (FaultControl* all = call.target.faults()) {
+        all->clear();
+    }
     return Json::object();
 }
 
 Answer list(const Call& call) {
     Json out = Json::array();
-    for (const fault::FaultStatus& status : faults(call).list()) {
-        out.push_back(fault::status_to_json(status));
+    if (FaultControl* all = call.target.faults()) {
+        for (const fault::FaultStatus& status : all->list()) {
+            out.push_back(fault::status_to_json(status));
+        }
+    }
+    call.board.refresh(call.now);
+    for (const printer::Breakdown& breakdown : call.board.machine().breakdowns.list()) {
+        out.push_back(fault::breakdown_to_json(breakdown));
     }
     return Json{{"faults", std::move(out)}};
 }
 
 constexpr Param spec_param{"spec", any, true,
-                           "the fault, as text (\"garble:to_screen,every=5\") or as an object; see faults"};
-constexpr Param id_param{"fault", number, true, "its id, from faults.add or faults.list"};
+                           "the fault, as text (\"garble:to_screen,every=5\", \"jam:at=60s\") or as an "
+                           "object; see faults"};
+constexpr Param id_param{"fault", any, true,
+                         "its id, from faults.add or faults.list: a number of a line's, a text of the "
+                         "printer's (\"p1\")"};
+constexpr Param gone_param{"fault", any, true,
+                           "its id; or a kind of the printer's by name, which takes all of that kind away"};
 constexpr std::array add_params{spec_param};
 constexpr std::array change_params{id_param, spec_param};
-constexpr std::array remove_params{id_param};
+constexpr std::array remove_params{gone_param};
 
 constexpr std::array table{
-    Op{"faults.list", "the faults in force, and what each has done so far", {}, list},
-    Op{"faults.add", "makes the tested line misbehave; answers with the fault's id", add_params, add},
-    Op{"faults.change", "the fault of that id begins anew as another one", change_params, change},
-    Op{"faults.remove", "takes one away; what it held back goes on", remove_params, remove},
+    Op{"faults.list", "the faults of line and printer, and what each has done or how it stands", {}, list},
+    Op{"faults.add", "makes the tested line misbehave, or breaks the printer; answers with the fault's id",
+       add_params, add},
+    Op{"faults.change", "the fault of that id begins anew as another one; one of the printer's gets a new id",
+       change_params, change},
+    Op{"faults.remove", "takes one away; what it held back goes on, what it broke is mended", remove_params,
+       remove},
     Op{"faults.clear", "takes all away", {}, clear},
 };
 

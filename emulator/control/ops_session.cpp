@@ -118,9 +118,9 @@ Answer status(const Call& call) {
              {"title", profile.title},
              {"t", printer::to_seconds(call.now)},
              {"clients", call.hub.size()}};
-    if (FaultControl* faults = call.target.faults()) {
-        out["faults"] = faults->list().size();
-    }
+    FaultControl* const faults = call.target.faults();
+    out["faults"] =
+        (faults != nullptr ? faults->list().size() : 0) + call.board.machine().breakdowns.list().size();
     out["counters"] = counters(call.board);
     out.update(call.target.status());
     return out;

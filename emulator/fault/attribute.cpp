@@ -60,6 +60,8 @@ std::string_view type_name(AttributeType type) {
             return "time";
         case AttributeType::rate:
             return "rate";
+        case AttributeType::temperature:
+            return "temperature";
         case AttributeType::choice:
             break;
     }
@@ -76,6 +78,8 @@ std::string attribute_text(const Attribute& attribute, double value) {
             return time_text(SimTime{static_cast<SimTime::rep>(value)});
         case AttributeType::rate:
             return fmt::format("{}B/s", value);
+        case AttributeType::temperature:
+            return fmt::format("{}C", value);
         case AttributeType::choice:
             break;
     }
@@ -105,6 +109,9 @@ std::string expected_text(const Attribute& attribute) {
         case AttributeType::rate:
             return fmt::format("a rate from {} to {} with its unit, such as \"960B/s\"", bound(attribute.min),
                                bound(attribute.max));
+        case AttributeType::temperature:
+            return fmt::format("a temperature from {} to {}, such as \"200C\"", bound(attribute.min),
+                               bound(attribute.max));
         case AttributeType::choice:
             break;
     }
@@ -120,6 +127,8 @@ std::optional<double> attribute_from_text(const Attribute& attribute, std::strin
             return in_bounds(attribute, parse_quantity(text, time_units()));
         case AttributeType::rate:
             return in_bounds(attribute, parse_quantity(text, rate_units()));
+        case AttributeType::temperature:
+            return in_bounds(attribute, parse_quantity(text, temperature_units()));
         case AttributeType::choice:
             break;
     }

@@ -12,6 +12,14 @@ bool comes_to_both_at_once(const FaultSpec& spec) {
            !spec.trigger.by_line();
 }
 
+void refuse_printer(const FaultSpec& spec) {
+    if (spec.kind->printer != nullptr) {
+        throw FaultSpecError({"fault \"" + std::string(spec.kind->name) +
+                              "\": it is the printer that breaks, and a line has none; expected a fault of "
+                              "lines, or a board that is run (`fauxboard run`)"});
+    }
+}
+
 bool wants(const FaultSpec& spec, Direction direction) {
     if (spec.direction == Direction::both) {
         return direction == Direction::to_screen || !comes_to_both_at_once(spec);
@@ -43,6 +51,7 @@ void Faults::put(SimTime now, FaultId id, const FaultSpec& spec) {
 }
 
 FaultId Faults::add(SimTime now, const FaultSpec& spec) {
+    refuse_printer(spec);
     put(now, last_id_ + 1, spec);
     return ++last_id_;
 }
@@ -51,6 +60,7 @@ bool Faults::change(SimTime now, FaultId id, const FaultSpec& spec) {
     if (!to_screen_.has(id) && !to_board_.has(id)) {
         return false;
     }
+    refuse_printer(spec);
     put(now, id, spec);
     return true;
 }

@@ -13,7 +13,7 @@ class Faults {
     Faults(const Faults&) = delete;
     Faults& operator=(const Faults&) = delete;
 
-    /// Throws FaultSpecError when a direction it is for is full.
+    /// Throws FaultSpecError when a direction it is for is full, or when it is for a printer.
     FaultId add(SimTime now, const FaultSpec& spec);
     /// The fault begins anew under its id, also in another direction. False when there is none of that id.
     /// Throws as add() does; then nothing is changed.

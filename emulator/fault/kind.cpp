@@ -10,9 +10,10 @@
 namespace fauxboard::fault {
 namespace {
 
-constexpr std::array<const Kind*, 11> table{
-    &rows::drop,  &rows::garble,    &rows::duplicate,      &rows::delay,   &rows::slow,       &rows::cut,
-    &rows::merge, &rows::nul_burst, &rows::wrong_checksum, &rows::silence, &rows::disconnect,
+constexpr std::array<const Kind*, 12> table{
+    &rows::drop,    &rows::garble,     &rows::duplicate, &rows::delay,    &rows::slow,
+    &rows::cut,     &rows::merge,      &rows::nul_burst, &rows::stray_ok, &rows::wrong_checksum,
+    &rows::silence, &rows::disconnect,
 };
 
 constexpr double most_lines = 1e9;
@@ -86,6 +87,13 @@ constexpr std::array<CommonAttribute, 10> common{{
      [](FaultSpec& s, double v) { s.seed = static_cast<std::uint64_t>(v); }},
 }};
 
+constexpr std::array<Attribute, 4> printer_common{{
+    {"at", AttributeType::time, {}, 0, longest_us, "virtual time at which it begins; else at once"},
+    {"from", AttributeType::time, {}, 0, longest_us, "the same"},
+    {"until", AttributeType::time, {}, 0, longest_us, "virtual time at which it ends; else when taken away"},
+    {"for", AttributeType::time, {}, 1, longest_us, "ends so long after it began"},
+}};
+
 Json describe(const Attribute& attribute) {
     Json out{{"name", attribute.name}, {"type", type_name(attribute.type)}};
     if (attribute.fallback) {
@@ -98,6 +106,29 @@ Json describe(const Attribute& attribute) {
         out["max"] = attribute_json(attribute, attribute.max);
     }
     out["help"] = attribute.help;
+    return out;
+}
+
+Json describe_printer_kinds() {
+    Json out{{"common", Json::array()}, {"kinds", Json::array()}};
+    for (const Attribute& attribute : printer_common) {
+        out["common"].push_back(describe(attribute));
+    }
+    for (const Kind* kind : printer_kinds()) {
+        Json events = Json::array();
+        for (const printer::EventId id : kind->printer->events) {
+            events.push_back(printer::events()[static_cast<std::size_t>(id)].name);
+        }
+        Json row{{"name", kind->name},
+                 {"help", kind->help},
+                 {"events", std::move(events)},
+                 {"back", kind->printer->back},
+                 {"attributes", Json::array()}};
+        for (const Attribute& attribute : kind->attributes) {
+            row["attributes"].push_back(describe(attribute));
+        }
+        out["kinds"].push_back(std::move(row));
+    }
     return out;
 }
 
@@ -119,9 +150,14 @@ std::span<const Kind* const> kinds() {
 }
 
 const Kind* find_kind(std::string_view name) {
-    const auto hit =
-        std::find_if(table.begin(), table.end(), [&](const Kind* kind) { return kind->name == name; });
-    return hit == table.end() ? nullptr : *hit;
+    for (const auto all : {kinds(), printer_kinds()}) {
+        const auto hit =
+            std::find_if(all.begin(), all.end(), [&](const Kind* kind) { return kind->name == name; });
+        if (hit != all.end()) {
+            return *hit;
+        }
+    }
+    return nullptr;
 }
 
 std::span<const CommonAttribute> common_attributes() {
@@ -129,6 +165,11 @@ std::span<const CommonAttribute> common_attributes() {
 }
 
 bool takes_common(const Kind& kind, std::string_view name) {
+    constexpr std::array of_printer{"at", "from", "until", "for"};  // it breaks by time, not by line
+    if (kind.printer != nullptr &&
+        std::find(of_printer.begin(), of_printer.end(), name) == of_printer.end()) {
+        return false;
+    }
     return std::none_of(kind.attributes.begin(), kind.attributes.end(),
                         [&](const Attribute& own) { return own.name == name; });
 }
@@ -145,6 +186,7 @@ Json describe_kinds() {
         }
         out["kinds"].push_back(std::move(row));
     }
+    out["printer"] = describe_printer_kinds();
     return out;
 }
 

@@ -9,10 +9,11 @@
 
 #include "emulator/fault/dice.h"
 #include "emulator/fault/spec.h"
+#include "emulator/printer/breakdowns.h"
 
 namespace fauxboard::fault {
 
-enum class AttributeType : std::uint8_t { number, integer, time, rate, choice };
+enum class AttributeType : std::uint8_t { number, integer, time, rate, temperature, choice };
 std::string_view type_name(AttributeType type);
 
 /// One attribute of a fault, declared once: both forms of a spec, the errors and the reference read this row.
@@ -20,7 +21,7 @@ struct Attribute {
     std::string_view name;
     AttributeType type;
     std::optional<double> fallback;  ///< when it is not given; none: then it does not restrict
-    double min;                      ///< in microseconds, bytes per second; choices: 0
+    double min;                      ///< in microseconds, bytes per second, C; choices: 0
     double max;
     std::string_view help;
     std::span<const std::string_view> choices{};
@@ -61,7 +62,7 @@ struct Interruption {
     bool link_down = false;  ///< the link itself is gone, in both directions
 };
 
-/// What a kind of fault is. Exactly one of edit, pace and interrupt is set.
+/// What a kind of fault is. Exactly one of edit, pace, interrupt and printer is set.
 struct Kind {
     std::string_view name;
     std::string_view help;
@@ -76,11 +77,15 @@ struct Kind {
     Interruption (*interrupt)(const Values& values) = nullptr;
     /// Lines it can act on; others are not even counted. Null: all.
     bool (*applies)(const LineEdit& line) = nullptr;
+    /// It is the printer that breaks, not the line: no business of a FaultLine.
+    const printer::BreakdownInfo* printer = nullptr;
 };
 
-/// Every kind, in the order of the reference.
+/// Every kind of fault of a line, in the order of the reference.
 std::span<const Kind* const> kinds();
-/// The kind of that name, or null.
+/// The printer's, one for each of printer::breakdowns(), in that order.
+std::span<const Kind* const> printer_kinds();
+/// The kind of that name, of either, or null.
 const Kind* find_kind(std::string_view name);
 /// What every kind has beside its own attributes.
 std::span<const CommonAttribute> common_attributes();
@@ -97,7 +102,8 @@ std::string expected_text(const Attribute& attribute);
 std::optional<double> attribute_from_text(const Attribute& attribute, std::string_view text);
 std::optional<double> attribute_from_json(const Attribute& attribute, const Json& json);
 
-/// The reference: {"common": [attributes], "kinds": [{"name", "help", "attributes"}]}.
+/// The reference: {"common": [attributes], "kinds": [{"name", "help", "attributes"}], "printer": {"common":
+/// [...], "kinds": [{"name", "help", "events", "back", "attributes"}]}}.
 Json describe_kinds();
 
 }  // namespace fauxboard::fault

@@ -18,6 +18,7 @@ extern const Kind slow;
 extern const Kind cut;
 extern const Kind merge;
 extern const Kind nul_burst;
+extern const Kind stray_ok;
 extern const Kind wrong_checksum;
 extern const Kind silence;
 extern const Kind disconnect;

@@ -13,6 +13,11 @@ std::span<const Unit> time_units() {
     return units;
 }
 
+std::span<const Unit> temperature_units() {
+    static constexpr std::array<Unit, 1> units{{{"C", 1}}};
+    return units;
+}
+
 std::span<const Unit> rate_units() {
     static constexpr std::array<Unit, 3> units{{{"B/s", 1}, {"kB/s", 1e3}, {"baud", 0.1}}};
     return units;

@@ -17,6 +17,8 @@ struct Unit {
 
 /// us, ms, s, min, h; the base is the microsecond.
 std::span<const Unit> time_units();
+/// C; the base is the degree Celsius.
+std::span<const Unit> temperature_units();
 /// B/s, kB/s, baud (10 bits a byte); the base is the byte per second.
 std::span<const Unit> rate_units();
 

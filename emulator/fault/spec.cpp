@@ -41,6 +41,7 @@ class SpecReader {
         problems_.push_back(fmt::format("fault{}: {}", label, problem));
     }
     bool knows_kind() const { return spec_.kind != nullptr; }
+    bool is_for_printer() const { return spec_.kind->printer != nullptr; }
     /// Throws if anything was wrong.
     FaultSpec finish();
 
@@ -58,8 +59,10 @@ class SpecReader {
 
 std::vector<std::string_view> kind_names() {
     std::vector<std::string_view> names;
-    for (const Kind* kind : kinds()) {
-        names.push_back(kind->name);
+    for (const auto all : {kinds(), printer_kinds()}) {
+        for (const Kind* kind : all) {
+            names.push_back(kind->name);
+        }
     }
     return names;
 }
@@ -117,7 +120,7 @@ void SpecReader::attribute(std::string_view name, std::string_view found, F&& re
         }
     }
     for (const CommonAttribute& common : common_attributes()) {
-        if (common.name == name) {
+        if (common.name == name && takes_common(*spec_.kind, name)) {
             return take(common, [&](double value) { common.set(spec_, value); });
         }
     }
@@ -125,7 +128,11 @@ void SpecReader::attribute(std::string_view name, std::string_view found, F&& re
 }
 
 void SpecReader::check_at() {
+    const bool lasts = spec_.kind->printer != nullptr;  // then it only says when it begins
     for (const std::string& name : given_) {
+        if (lasts && name != "from") {
+            continue;
+        }
         const bool length = name == "for" && takes_common(*spec_.kind, name);
         if (length || name == "probability" || name == "every" || name == "after" || name == "count" ||
             name == "from" || name == "until") {
@@ -140,9 +147,10 @@ void SpecReader::check_window() {
     if (trigger.until && trigger.length) {
         complain("found until and for together; expected only one of them: both say when it ends");
     }
-    if (trigger.until && trigger.from && *trigger.until <= *trigger.from) {
-        complain(fmt::format("until: found {}; expected a time after from, {}", time_text(*trigger.until),
-                             time_text(*trigger.from)));
+    const std::optional<SimTime> from = trigger.at ? trigger.at : trigger.from;
+    if (trigger.until && from && *trigger.until <= *from) {
+        complain(fmt::format("until: found {}; expected a time after {}, {}", time_text(*trigger.until),
+                             trigger.at ? "at" : "from", time_text(*from)));
     }
 }
 
@@ -190,6 +198,8 @@ void read_item(SpecReader& reader, std::string_view item) {
         const std::string_view value = trimmed(item.substr(equals + 1));
         reader.attribute(trimmed(item.substr(0, equals)), in_quotes(value),
                          [&](const Attribute& row) { return attribute_from_text(row, value); });
+    } else if (reader.is_for_printer()) {
+        reader.complain(fmt::format("found {}; expected name=value", in_quotes(item)));
     } else {
         const Attribute& direction = common_attributes().front();
         if (!attribute_from_text(direction, item)) {
@@ -212,7 +222,8 @@ void for_each_given(const FaultSpec& spec, F&& give) {
     };
     for (const CommonAttribute& row : common_attributes()) {
         // A trigger at its default is still one: it makes lines decide.
-        if (const std::optional<double> value = row.get(spec)) {
+        const std::optional<double> value = row.get(spec);
+        if (value && takes_common(*spec.kind, row.name)) {
             const bool always = row.name == "probability" || row.name == "every" || row.name == "after";
             always ? give(row, *value) : tell(row, *value);
         }

@@ -46,7 +46,9 @@ class ControlServer final : public LiveObserver, private control::Target {
                      board::Verdict verdict) override {
         hub_.on_received(now, channel, line, verdict);
     }
-    void on_sent(SimTime now, std::string_view line) override { hub_.on_sent(now, line); }
+    void on_sent(SimTime now, board::Channel channel, std::string_view line) override {
+        hub_.on_sent(now, channel, line);
+    }
     void on_notice(SimTime now, board::Level level, std::string_view text) override {
         hub_.on_notice(now, level, text);
     }

@@ -22,7 +22,7 @@ class JsonLog final : public LiveObserver {
 
     void on_received(SimTime now, board::Channel channel, std::string_view line,
                      board::Verdict verdict) override;
-    void on_sent(SimTime now, std::string_view line) override;
+    void on_sent(SimTime now, board::Channel channel, std::string_view line) override;
     void on_notice(SimTime now, board::Level level, std::string_view text) override;
     void on_link(SimTime now, link::LinkState state, std::string_view why) override;
 

@@ -110,12 +110,14 @@ void LineLog::on_received(SimTime now, board::Channel channel, std::string_view 
     std::string words = words_of(line, protocol::Direction::to_board);
     words += words_of(verdict);
     print(now, verdict == board::Verdict::accepted ? cyan : red,
-          channel == board::Channel::screen ? "screen → board" : "host → board", printable(line), words);
+          fmt::format("{} → board", board::other_end(channel)), printable(line), words);
 }
 
-void LineLog::on_sent(SimTime now, std::string_view line) {
+void LineLog::on_sent(SimTime now, board::Channel channel, std::string_view line) {
     if (detail_ != Detail::quiet && passes(now)) {
-        print(now, green, "board → screen", printable(line), words_of(line, protocol::Direction::to_screen));
+        const bool screen = channel == board::Channel::main;
+        print(now, green, fmt::format("board → {}", board::other_end(channel)), printable(line),
+              screen ? words_of(line, protocol::Direction::to_screen) : std::string());
     }
 }
 

@@ -37,8 +37,11 @@ SimTime LiveBoard::now() const {
 void LiveBoard::send_output() {
     if (!board_.output().empty()) {
         link_.write(board_.output());
-        board_.clear_output();
     }
+    for (const auto& line : side_lines_) {
+        line->send_output();
+    }
+    board_.clear_output();
     board_.take_datagrams([this](std::uint64_t peer, std::string_view bytes) {
         if (datagram_sender_) {
             datagram_sender_(peer, bytes);
@@ -101,7 +104,12 @@ void LiveBoard::visit(const std::function<void(board::Board& board, SimTime now)
     settle(at);
 }
 
-void LiveBoard::on_bytes(std::string_view bytes) {
+link::LinkListener& LiveBoard::attach(board::Channel channel, link::Link& link) {
+    board_.connect(channel, true);
+    return *side_lines_.emplace_back(std::make_unique<SideLine>(*this, channel, link));
+}
+
+void LiveBoard::take(board::Channel channel, std::string_view bytes) {
     if (!running_) {
         return;
     }
@@ -113,7 +121,7 @@ void LiveBoard::on_bytes(std::string_view bytes) {
         // Output that piles up makes requests wait, and in the end get lost; so take it in between.
         const std::string_view piece = bytes.substr(0, bytes_at_once);
         bytes.remove_prefix(piece.size());
-        board_.receive(due_ > at ? at : board_.time(), piece);
+        board_.receive(due_ > at ? at : board_.time(), piece, channel);
         send_output();
         catch_up(at);
     }

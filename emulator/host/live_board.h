@@ -4,6 +4,7 @@
 #include <memory>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "emulator/board/board.h"
 #include "emulator/host/clock.h"
@@ -38,10 +39,34 @@ class LiveBoard final : public link::LinkListener {
     /// Virtual time, no later than the end.
     SimTime now() const;
 
-    void on_bytes(std::string_view bytes) override;
+    /// Puts one more of the board's lines on a link, which must outlive this object. The listener to open it
+    /// with; before start().
+    link::LinkListener& attach(board::Channel channel, link::Link& link);
+
+    void on_bytes(std::string_view bytes) override { take(board::Channel::main, bytes); }
     void on_state(link::LinkState state, std::string_view why) override;
 
   private:
+    /// A line of the board beside the main one.
+    class SideLine final : public link::LinkListener {
+      public:
+        SideLine(LiveBoard& board, board::Channel channel, link::Link& link)
+            : board_(board), channel_(channel), link_(link) {}
+        void on_bytes(std::string_view bytes) override { board_.take(channel_, bytes); }
+        void on_state(link::LinkState state, std::string_view why) override { board_.on_state(state, why); }
+        void send_output() {
+            if (const std::string_view output = board_.board_.output(channel_); !output.empty()) {
+                link_.write(output);
+            }
+        }
+
+      private:
+        LiveBoard& board_;
+        board::Channel channel_;
+        link::Link& link_;
+    };
+
+    void take(board::Channel channel, std::string_view bytes);
     void wake();
     void catch_up(SimTime now);
     void settle(SimTime now);
@@ -50,6 +75,7 @@ class LiveBoard final : public link::LinkListener {
 
     board::Board& board_;
     link::Link& link_;
+    std::vector<std::unique_ptr<SideLine>> side_lines_;
     Clock& clock_;
     std::unique_ptr<Alarm> alarm_;
     LiveObserver* observer_;

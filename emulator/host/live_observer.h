@@ -27,9 +27,9 @@ class Observers final : public LiveObserver {
         for (LiveObserver* each : all_)
             each->on_received(now, channel, line, verdict);
     }
-    void on_sent(SimTime now, std::string_view line) override {
+    void on_sent(SimTime now, board::Channel channel, std::string_view line) override {
         for (LiveObserver* each : all_)
-            each->on_sent(now, line);
+            each->on_sent(now, channel, line);
     }
     void on_notice(SimTime now, board::Level level, std::string_view text) override {
         for (LiveObserver* each : all_)

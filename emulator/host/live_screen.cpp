@@ -62,7 +62,7 @@ void LiveScreen::send_output() {
     link_.write(bytes);
     if (observer_ != nullptr) {
         to_board_.feed(bytes, [&](std::string_view line) {
-            observer_->on_received(clock_.now(), board::Channel::screen, line, board::Verdict::accepted);
+            observer_->on_received(clock_.now(), board::Channel::main, line, board::Verdict::accepted);
         });
     }
 }
@@ -131,7 +131,7 @@ void LiveScreen::on_bytes(std::string_view bytes) {
     from_board_.feed(bytes, [this](std::string_view line) {
         ++lines_heard_;
         if (observer_ != nullptr) {
-            observer_->on_sent(clock_.now(), line);
+            observer_->on_sent(clock_.now(), board::Channel::main, line);
         }
     });
     const std::size_t fits = std::min(bytes.size(), inbox_limit - inbox_.size());

@@ -20,7 +20,7 @@ class Recorder final : public LiveObserver {
 
     void on_received(SimTime now, board::Channel channel, std::string_view line,
                      board::Verdict verdict) override;
-    void on_sent(SimTime now, std::string_view line) override;
+    void on_sent(SimTime now, board::Channel channel, std::string_view line) override;
     void on_notice(SimTime, board::Level, std::string_view) override {}
     void on_link(SimTime, link::LinkState, std::string_view) override {}
 

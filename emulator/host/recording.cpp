@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t max_text = 64U * 1024;
 constexpr double max_seconds = 1e9;  // thirty years: beyond it is no recording
-constexpr std::array<std::string_view, 4> from_names{"board", "screen", "host", "world"};
+constexpr std::array<std::string_view, 5> from_names{"board", "screen", "host", "world", "usb"};
 
 std::string found(const nlohmann::json& value) {
     const std::string text = value.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
@@ -89,7 +89,7 @@ RecordedLine RecordingReader::parse() {
                                                    std::string_view(from.get_ref<const std::string&>()))
                                        : from_names.end();
     if (name == from_names.end()) {
-        fail("from: " + found(from) + "; expected board, screen, host or world");
+        fail("from: " + found(from) + "; expected board, screen, host, world or usb");
     }
     out.from = static_cast<RecordedLine::From>(name - from_names.begin());
     const char* key = out.from == RecordedLine::From::world ? "do" : "line";

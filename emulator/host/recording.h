@@ -22,13 +22,14 @@ struct RecordedLine {
         screen,  ///< the screen said it to the board
         host,    ///< a command that came in over the board's USB port
         world,   ///< done to the machine by hand: "filament in", "board reset"
+        usb,     ///< the board's reply over its USB port
     };
     printer::SimTime t{0};  ///< end of the line on the wire, from the start of the recording
     From from = From::board;
     std::string bytes;  ///< the line as it went over the wire, without its line end; of `world` the words
 };
 
-/// "board", "screen", "host" or "world".
+/// "board", "screen", "host", "world" or "usb".
 std::string_view from_name(RecordedLine::From from);
 
 /// A recording that cannot be read. what() is "FILE:LINE: what was found and what was expected".

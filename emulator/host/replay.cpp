@@ -18,7 +18,7 @@ class NoticeKeeper final : public board::Observer {
   public:
     explicit NoticeKeeper(std::vector<ReplayNotice>& out) : out_(out) {}
     void on_received(SimTime, board::Channel, std::string_view, board::Verdict) override {}
-    void on_sent(SimTime, std::string_view) override {}
+    void on_sent(SimTime, board::Channel, std::string_view) override {}
     void on_notice(SimTime now, board::Level level, std::string_view text) override {
         if (out_.size() < max_notices) {
             out_.push_back({now, level, std::string(text)});
@@ -91,12 +91,13 @@ void Player::align(const std::vector<RecordedLine>& recording) {
 void Player::do_entry(SimTime now, const RecordedLine& entry) {
     switch (entry.from) {
         case From::board:
+        case From::usb:
             break;
         case From::screen:
             board_.receive(now, entry.bytes + "\r\n");
             break;
         case From::host:
-            board_.receive_host(now, entry.bytes + "\n");
+            board_.receive(now, entry.bytes + "\n", board::Channel::host);
             break;
         case From::world:
             if (!board_.world(now, entry.bytes)) {

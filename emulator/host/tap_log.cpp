@@ -45,7 +45,7 @@ void TapLog::on_received(SimTime now, board::Channel, std::string_view line, boa
     }
 }
 
-void TapLog::on_sent(SimTime now, std::string_view line) {
+void TapLog::on_sent(SimTime now, board::Channel, std::string_view line) {
     if (options_.lines) {
         print(now, green, "board → screen", printable(line),
               options_.words ? words_of(line, protocol::Direction::to_screen) : std::string());

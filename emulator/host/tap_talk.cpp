@@ -73,9 +73,9 @@ void TapTalk::tell(SimTime now, TapSide from, bool packet, std::string_view byte
         packets_->packet(now, from_board ? protocol::Direction::to_screen : protocol::Direction::to_board,
                          bytes);
     } else if (from_board) {
-        lines_.on_sent(now, bytes);
+        lines_.on_sent(now, board::Channel::main, bytes);
     } else {
-        lines_.on_received(now, board::Channel::screen, bytes, board::Verdict::accepted);
+        lines_.on_received(now, board::Channel::main, bytes, board::Verdict::accepted);
     }
 }
 

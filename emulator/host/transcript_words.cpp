@@ -87,6 +87,8 @@ std::string_view head_of(From from) {
             return "screen → board";
         case From::host:
             return "host → board";
+        case From::usb:
+            return "board → host";
         case From::world:
             break;
     }
@@ -177,7 +179,7 @@ JudgedLine judge(TranscriptEntry entry, const std::vector<LineJudge>& judges) {
     out.entry = std::move(entry);
     if (out.entry.form == Form::bad) {
         out.marks.push_back({"unreadable", out.entry.problem});
-    } else if (out.entry.from != From::world) {
+    } else if (out.entry.from != From::world && out.entry.from != From::usb) {
         out.decoded = protocol::decode_line(without_nuls(out.entry.bytes), out.entry.direction());
         for (const LineJudge& each : judges) {
             each(out.entry, *out.decoded, out.marks);

@@ -1,6 +1,11 @@
 #include "emulator/printer/feeder.h"
 
 namespace fauxboard::printer {
+namespace {
+
+constexpr double piece_mm = 10;
+
+}  // namespace
 
 void Feeder::power_on() {
     mode_ = Mode::idle;
@@ -32,6 +37,7 @@ void Feeder::stop(SimTime now, EventQueue& events) {
 void Feeder::advance(SimTime now, EventQueue& events) {
     while (mode_ != Mode::idle && next_ <= now) {
         events.raise(EventId::filament_piece);
+        fed_ += mode_ == Mode::load ? piece_mm : mode_ == Mode::unload ? -piece_mm : 0;
         if (stopping_) {
             power_on();
             events.raise(EventId::filament_stopped);

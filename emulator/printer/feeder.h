@@ -25,6 +25,8 @@ class Feeder {
     void stop(SimTime now, EventQueue& events);
 
     Mode mode() const { return mode_; }
+    /// Filament that the extruder was turned for since the machine was made, mm; back is negative.
+    double fed_mm() const { return fed_; }
 
   private:
     const FilamentConfig& config_;
@@ -32,6 +34,7 @@ class Feeder {
     SimTime piece_start_{0};
     SimTime next_ = never;
     bool stopping_ = false;
+    double fed_ = 0;
 };
 
 }  // namespace fauxboard::printer

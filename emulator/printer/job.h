@@ -38,6 +38,8 @@ class Job {
     const std::string& path() const { return path_; }
     std::uint64_t byte() const { return active() ? byte_ : 0; }
     std::uint64_t bytes() const { return active() ? bytes_ : 0; }
+    /// Size of the file selected.
+    std::uint64_t file_bytes() const { return bytes_; }
     /// Where the job begins, or goes on: in the file selected, whatever its state.
     std::uint64_t place() const { return byte_; }
     /// M26; beyond the end is the end.

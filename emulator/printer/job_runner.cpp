@@ -4,7 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "emulator/printer/job_codes.h"
 #include "emulator/printer/printer.h"
 
 namespace fauxboard::printer {
@@ -22,22 +21,19 @@ constexpr std::uint64_t scout_bytes = 16 * 1024;
 /// How the head goes back to where it was before a pause: as the shipped profiles park it.
 constexpr double return_feed_mm_s = 100;
 constexpr double return_z_feed_mm_s = 20;
-constexpr double default_feed_mm_s = 25;
 
 }  // namespace
 
 void JobRunner::power_on() {
     stop();
-    unit_ = 1;
-    weights_ = {};
+    source_.wake = SimTime{0};
 }
 
 void JobRunner::start(SimTime now) {
     stop();
-    counts_ = {};
-    feed_mm_s_ = default_feed_mm_s;
-    unit_ = 1;
-    wake_ = now_ = now;
+    lines_ = unknown_codes_ = source_.moves = 0;
+    printer_.modal = {};
+    wake_ = source_.wake = source_.now = now;
     read_tail();
     const Volume* volume = printer_.storage.volume(printer_.job.volume());
     if (volume != nullptr) {
@@ -53,7 +49,7 @@ void JobRunner::pause() {
 }
 
 void JobRunner::resume(SimTime now) {
-    wake_ = now_ = now;
+    wake_ = source_.wake = source_.now = now;
     // Anew: the card may have been out, and another one may be in.
     if (!held_) {
         seek();
@@ -80,14 +76,14 @@ void JobRunner::seek() {
     if (volume != nullptr) {
         reader_.open(*volume, printer_.job.path(), printer_.job.place());
     }
-    line_byte_ = printer_.job.place();
+    source_.byte = printer_.job.place();
 }
 
 void JobRunner::stop() {
     reader_.close();
     scout_.close();
     scout_notes_.clear();
-    arc_.clear();
+    source_.arc.clear();
     notes_.clear();
     held_ = ended_ = false;
     close_ = never;
@@ -99,8 +95,8 @@ void JobRunner::finished(SimTime now) {
 }
 
 std::uint64_t JobRunner::executed_byte() const {
-    const bool pending = arc_.active() || held_;
-    return printer_.motion.streamed_byte(pending ? line_byte_ : printer_.job.place());
+    const bool pending = source_.arc.active() || held_;
+    return printer_.motion.streamed_byte(pending ? source_.byte : printer_.job.place());
 }
 
 /// Whether lines are being read and carried out at all.
@@ -116,16 +112,16 @@ SimTime JobRunner::next_event() const {
         return never;
     }
     const bool may = held_ || ended_ ? !printer_.motion.busy() : printer_.motion.can_stream();
-    return may ? std::max(wake_, printer_.now()) : never;
+    return may ? std::max(wake(), printer_.now()) : never;
 }
 
 void JobRunner::advance(SimTime now) {
-    now_ = now;
+    source_.now = now;
     if (close_ <= now) {
         close_ = never;
         printer_.close_job();
     }
-    if (wake_ > now || !reading()) {
+    if (wake() > now || !reading()) {
         return;
     }
     if (scout_.is_open()) {
@@ -137,7 +133,7 @@ void JobRunner::advance(SimTime now) {
     }
     // Each round carries out a line or a part of an arc, or ends the loop.
     const bool open = reader_.is_open();
-    while (reading() && wake_ <= now && piece()) {
+    while (reading() && wake() <= now && piece()) {
         if (reader_.byte() >= enough_byte_) {
             wake_ = std::max(wake_, breath_end_);
         }
@@ -159,8 +155,8 @@ bool JobRunner::piece() {
     if (!motion.can_stream() || (held_ && motion.busy())) {
         return false;
     }
-    if (arc_.active()) {
-        motion.stream(arc_.take(), arc_.feed_mm_s() * motion.speed_percent() / 100.0, line_byte_);
+    if (source_.arc.active()) {
+        stream_arc(source_);
         return true;
     }
     if (!held_ && !fetch()) {
@@ -178,7 +174,7 @@ bool JobRunner::fetch() {
         return false;
     }
     std::string_view text;
-    line_byte_ = std::min(reader_.byte(), printer_.job.bytes());  // the file may have grown meanwhile
+    source_.byte = std::min(reader_.byte(), printer_.job.bytes());  // the file may have grown meanwhile
     switch (reader_.next(text)) {
         case GcodeReader::Result::line:
             break;
@@ -189,7 +185,7 @@ bool JobRunner::fetch() {
             lose_file();
             return false;
     }
-    ++counts_.lines;
+    ++lines_;
     parse_gcode(text, line_);
     if (!line_.comment.empty()) {
         take_comment();
@@ -206,22 +202,24 @@ void JobRunner::take_comment() {
 }
 
 void JobRunner::execute() {
-    const JobCode* code = line_.letter == 0 ? nullptr : find_job_code(line_.letter, line_.code);
+    const GcodeCode* code = line_.letter == 0 ? nullptr : find_code(line_.letter, line_.code);
     held_ = code != nullptr && code->at_rest && printer_.motion.busy();
     if (held_ || line_.letter == 0) {
         return;
     }
     if (code == nullptr) {
-        ++counts_.unknown_codes;
+        ++unknown_codes_;
         return;
     }
-    code->run(*this, line_);
+    code->run(source_, line_);
 }
 
 /// The file is gone. The job pauses, so that it can go on when the card is back.
 void JobRunner::lose_file() {
     printer_.pause_job();
-    printer_.events.raise(EventId::job_file_lost);
+    const bool there =
+        printer_.storage.look(printer_.job.volume(), printer_.job.path()) == Volume::Kind::unreadable;
+    printer_.events.raise(there ? EventId::job_file_unreadable : EventId::job_file_lost);
 }
 
 /// Reads some of the file ahead of the job, for its layers only. Ends when a comment told their number, at

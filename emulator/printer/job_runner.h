@@ -1,9 +1,9 @@
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cstdint>
 
-#include "emulator/printer/arc.h"
+#include "emulator/printer/gcode_codes.h"
 #include "emulator/printer/gcode_line.h"
 #include "emulator/printer/gcode_reader.h"
 #include "emulator/printer/machine_config.h"
@@ -25,11 +25,11 @@ struct JobCounts {
 /// machine, and keeps the Job's place, layers and end.
 ///
 /// It runs in virtual time and does nothing between events: it goes on when a block of the planner ends, a
-/// procedure or a wait is over. A line costs no time, but in 10 ms no more than 4 KiB are read, and the line in
-/// which they end (400 KB/s, what such boards read from a card), so that no file can hold the board up.
+/// procedure or a wait is over. A line costs no time, but in 10 ms no more than 4 KiB are read, and the line
+/// in which they end (400 KB/s, what such boards read from a card), so that no file can hold the board up.
 class JobRunner {
   public:
-    explicit JobRunner(Printer& printer) : printer_(printer) {}
+    explicit JobRunner(Printer& printer) : printer_(printer), source_{printer} {}
 
     void power_on();
     /// The job starts, at its place().
@@ -48,14 +48,13 @@ class JobRunner {
     void advance(SimTime now);
     SimTime next_event() const;
 
-    const JobCounts& counts() const { return counts_; }
+    JobCounts counts() const { return {lines_, source_.moves, unknown_codes_}; }
     /// The byte in the file at which the move under way begins: what a power cut loses begins here.
     std::uint64_t executed_byte() const;
 
   private:
-    friend struct JobCodes;  // what each code does
-
     bool reading() const;
+    SimTime wake() const { return std::max(wake_, source_.wake); }
     bool piece();
     bool fetch();
     void take_comment();
@@ -70,20 +69,16 @@ class JobRunner {
     SlicerNotes notes_;
     GcodeReader scout_;  ///< runs ahead to count layers, where no comment tells their number
     SlicerNotes scout_notes_;
-    ArcSegments arc_;
-    JobCounts counts_;
-    std::uint64_t line_byte_ = 0;  ///< where line_ begins
-    bool held_ = false;            ///< line_ is still to be carried out, once nothing moves
-    bool ended_ = false;           ///< the file is at its end; the moves are not
-    SimTime now_{0};
+    GcodeSource source_;  ///< its byte: where line_ begins
+    std::uint64_t lines_ = 0;
+    std::uint64_t unknown_codes_ = 0;
+    bool held_ = false;      ///< line_ is still to be carried out, once nothing moves
+    bool ended_ = false;     ///< the file is at its end; the moves are not
     SimTime wake_{0};        ///< not to go on before
     SimTime breath_end_{0};  ///< of the 10 ms in which no more is read than up to enough_byte_
     std::uint64_t enough_byte_ = 0;
     SimTime close_ = never;  ///< when the finished job is no longer shown
-    double unit_ = 1;        ///< mm: G20, G21
-    double feed_mm_s_ = 25;
     AxisValues paused_at_{};
-    std::array<double, 3> weights_{};  ///< M163, until M164
 };
 
 }  // namespace fauxboard::printer

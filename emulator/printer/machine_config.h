@@ -63,6 +63,9 @@ struct FilamentConfig {
     double piece_commit_s = 0.25;  ///< a stop later than this into a piece waits for the piece's end
     int feed_mm_s = 1;             ///< shown as F and FR while loading
     double min_extrude_c = 170;
+    /// A detector that feels the filament move, instead of whether it is there, calls it out after so much
+    /// was extruded and nothing moved; 0: it is a switch, as on the A30T.
+    double detector_mm = 0;
 };
 
 struct Identity {
@@ -91,6 +94,12 @@ struct JobConfig {
     double finished_s = 10;
 };
 
+struct HostConfig {
+    /// A command of the USB side that takes longer than this raises `host.busy`, and again each time; 0:
+    /// never.
+    double busy_s = 2;
+};
+
 struct MachineConfig {
     Identity identity;
     ThermalConfig thermal;
@@ -99,6 +108,7 @@ struct MachineConfig {
     CardConfig card;
     JobConfig job;
     std::optional<ResinConfig> resin;  ///< a resin printer; nothing: one that melts filament
+    HostConfig host;
     bool udisk_port = false;
     int board_fan_percent = 50;
     double manual_level_start_mm = 8.0;

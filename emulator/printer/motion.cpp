@@ -232,6 +232,7 @@ void Motion::start_stream(SimTime now) {
 void Motion::advance(SimTime now, EventQueue& events) {
     while (planner_.running() && planner_.end() <= now) {
         const SimTime end = planner_.end();
+        extruded_ += planner_.target()[3] - executed_[3];
         executed_ = planner_.target();
         planner_.finish();
         if (planner_.empty()) {
@@ -249,6 +250,9 @@ void Motion::advance(SimTime now, EventQueue& events) {
 
 void Motion::finish(EventQueue& events) {
     const Step step = at(0);
+    if (fails(step, events)) {
+        return;
+    }
     head_ = (head_ + 1) % capacity;
     --count_;
     step_end_ = never;
@@ -266,6 +270,7 @@ void Motion::finish(EventQueue& events) {
             offset_[i] = 0;
         }
     }
+    extruded_ += step.target[3] - executed_[3];
     executed_ = step.target;
     switch (step.what.kind) {
         case Kind::zero:
@@ -289,13 +294,37 @@ void Motion::finish(EventQueue& events) {
     accept_ahead();
 }
 
+bool Motion::fails(const Step& step, EventQueue& events) {
+    const bool probes = step.what.kind == Kind::probe;
+    bool failed = probes && (faults_.probe_alarm || dead_endstop(z_axis));
+    for (std::size_t i = 0; i < 3 && step.what.kind == Kind::home; ++i) {
+        failed = failed || (step.what.values[i] && dead_endstop(i));
+    }
+    if (failed) {
+        abort();
+        homed_ = 0;
+        events.raise(probes && faults_.probe_alarm ? EventId::leveling_probe_alarm
+                                                   : EventId::motion_homing_failed);
+    }
+    return failed;
+}
+
 double Motion::duration_s(const Step& step) const {
+    if (step.what.kind == Kind::probe && faults_.probe_alarm) {
+        return 0;  // it is not even tried
+    }
+    if (step.what.kind == Kind::probe && dead_endstop(z_axis)) {
+        return config_.volume_mm[z_axis] / std::max(shown_feed_, 0.01);
+    }
     if (step.what.seconds >= 0) {
         return step.what.seconds;
     }
     double seconds = 0;
     if (step.what.kind == Kind::home) {
         for (std::size_t i = 0; i < 3; ++i) {
+            if (step.what.values[i] && dead_endstop(i)) {
+                return seconds + config_.volume_mm[i] / config_.homing_feed_mm_s;
+            }
             if (step.what.values[i]) {
                 seconds +=
                     std::abs(executed_[i] + offset_[i]) / config_.homing_feed_mm_s + config_.homing_bump_s;

@@ -20,6 +20,13 @@ struct MoveRequest {
     bool limits = true;                 ///< keep inside the build volume (software end stops)
 };
 
+/// What is wrong with motors and switches. Physical: it outlives a reset.
+struct MotionFaults {
+    std::array<bool, 3> dead_endstops{};  ///< X, Y, Z: never trigger; Z is the probe's
+    bool dead_motors = false;             ///< no current: nothing moves, whatever the board believes
+    bool probe_alarm = false;             ///< the probe is stuck, and says so
+};
+
 enum class MoveOutcome : std::uint8_t { accepted, clamped, queue_full };
 
 /// Moves, homing and probing in closed form: every step knows its end when it starts, nothing ticks in
@@ -67,7 +74,10 @@ class Motion {
     bool relative_e() const { return relative_ || relative_e_; }
     void set_position(const AxisTargets& values);  // G92
     void set_motors(bool on);
-    bool motors() const { return motors_; }
+    bool motors() const { return motors_ && !faults_.dead_motors; }
+    MotionFaults& faults() { return faults_; }
+    /// Filament that the extruder was turned for since the machine was made, mm.
+    double extruded_mm() const { return extruded_; }
     bool homed() const { return (homed_ & 7U) == 7U; }
     bool busy() const { return count_ != 0 || !planner_.empty(); }
     /// End of everything asked for, mm.
@@ -100,6 +110,9 @@ class Motion {
     void accept_ahead();
     void begin(SimTime now, EventQueue& events);
     void finish(EventQueue& events);
+    /// Whether the step under way ends without its switch having triggered; then all is dropped.
+    bool fails(const Step& step, EventQueue& events);
+    bool dead_endstop(std::size_t axis) const { return faults_.dead_motors || faults_.dead_endstops[axis]; }
     double duration_s(const Step& step) const;
     double bed_height_mm(double x, double y) const;
 
@@ -124,6 +137,8 @@ class Motion {
     bool relative_ = false;
     bool relative_e_ = false;
     bool motors_ = false;
+    MotionFaults faults_;
+    double extruded_ = 0;
 };
 
 }  // namespace fauxboard::printer

@@ -17,6 +17,7 @@ Printer::Printer(std::shared_ptr<const MachineConfig> config, Services services,
       motion(config->motion, settings),
       feeder(config->filament),
       runner(*this),
+      host(*this),
       config_(std::move(config)),
       services_(services),
       random_state_(seed ^ 0x9E3779B97F4A7C15ULL) {
@@ -51,10 +52,14 @@ void Printer::power_on(SimTime now) {
     transfer.power_on();
     job.power_on();
     runner.power_on();
+    modal = {};
+    host.power_on();
     screen = ScreenSide{};
     wifi = Wifi{};
     steppers = Steppers{};
     events.clear();
+    refusing = tuning = hung_ = reset_ = false;
+    host_heard_.reset();
     stall_ = SimTime{0};
     card_check_ = storage.usable(0) ? never : now + card_check_delay;
     if (resin) {
@@ -67,7 +72,13 @@ void Printer::advance(SimTime now) {
     for (SimTime next = next_event(); next <= now; next = next_event()) {
         now_ = next;
         thermal.advance(next);
+        breakdowns.advance(next);
+        if (hung_) {
+            continue;
+        }
+        raise_alarms();
         const bool was_moving = motion.busy();
+        motion.faults().probe_alarm = leveling.probe_alarm;
         motion.advance(next, events);
         feeder.advance(next, events);
         wait.advance(next, thermal, events);
@@ -76,10 +87,12 @@ void Printer::advance(SimTime now) {
             events.raise(EventId::card_missing);
         }
         runner.advance(next);
+        host.advance(next);
         motion.start_stream(next);
         if (resin) {
             resin->advance(next);
         }
+        follow_filament();
         if (was_moving) {
             emit_after_motion();
         }
@@ -89,13 +102,18 @@ void Printer::advance(SimTime now) {
 }
 
 SimTime Printer::next_event() const {
+    if (hung_) {
+        return breakdowns.next_event();
+    }
     return std::min({motion.next_event(), feeder.next_event(), wait.next_event(), runner.next_event(),
-                     card_check_, resin ? resin->next_event() : never});
+                     host.next_event(), card_check_, thermal.next_alarm_check(), breakdowns.next_event(),
+                     resin ? resin->next_event() : never});
 }
 
 bool Printer::restless() const {
-    return motion.busy() || feeder.mode() != Feeder::Mode::idle || wait.active() || !thermal.settled() ||
-           job.status() == JobStatus::printing || (resin && resin->restless());
+    return !hung_ &&
+           (motion.busy() || feeder.mode() != Feeder::Mode::idle || wait.active() || !thermal.settled() ||
+            job.status() == JobStatus::printing || (resin && resin->restless()));
 }
 
 void Printer::emit_after_motion() {
@@ -121,6 +139,7 @@ bool Printer::home(unsigned mask) {
 bool Printer::run(std::string_view procedure) {
     const auto& known = config_->motion.procedures;
     const auto hit = known.find(procedure);
+    motion.faults().probe_alarm = leveling.probe_alarm;
     return hit != known.end() && motion.run(hit->second, now_, events);
 }
 
@@ -129,7 +148,7 @@ void Printer::motors_off() {
 }
 
 void Printer::feed(Feeder::Mode mode) {
-    if (thermal.temperature_c(HeaterId::nozzle) < config_->filament.min_extrude_c) {
+    if (too_cold_to_extrude()) {
         events.raise(EventId::filament_too_cold);
         return;
     }
@@ -139,7 +158,7 @@ void Printer::feed(Feeder::Mode mode) {
 }
 
 void Printer::feed_once() {
-    if (thermal.temperature_c(HeaterId::nozzle) < config_->filament.min_extrude_c) {
+    if (too_cold_to_extrude()) {
         events.raise(EventId::filament_too_cold);
         return;
     }
@@ -208,7 +227,7 @@ void Printer::fail_card(int disk) {
 }
 
 void Printer::select_file(std::string_view name) {
-    if (job.active()) {
+    if (job.active() || refusing) {
         events.raise(EventId::job_refused);
         return;
     }
@@ -229,10 +248,26 @@ void Printer::select_file(std::string_view name) {
     }
 }
 
+bool Printer::resume_job() {
+    if (!job.resume(now_)) {
+        return false;
+    }
+    resin ? resin->job.resume(now_) : runner.resume(now_);
+    events.raise(EventId::job_resumed);
+    return true;
+}
+
 bool Printer::start_or_resume_job() {
-    if (job.resume(now_)) {
-        resin ? resin->job.resume(now_) : runner.resume(now_);
+    if (job.waits_for_user && !job.active()) {  // an M0 of the USB side
+        job.waits_for_user = false;
         events.raise(EventId::job_resumed);
+        return true;
+    }
+    if (resume_job()) {
+        return true;
+    }
+    if (refusing && job.selected() && !job.active()) {
+        events.raise(EventId::job_refused);
         return true;
     }
     if (resin && !resin->job.open()) {

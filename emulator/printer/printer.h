@@ -7,10 +7,12 @@
 #include <string_view>
 #include <vector>
 
+#include "emulator/printer/breakdowns.h"
 #include "emulator/printer/eeprom_image.h"
 #include "emulator/printer/events.h"
 #include "emulator/printer/feeder.h"
 #include "emulator/printer/heating_wait.h"
+#include "emulator/printer/host_commands.h"
 #include "emulator/printer/job.h"
 #include "emulator/printer/job_runner.h"
 #include "emulator/printer/machine_config.h"
@@ -86,6 +88,8 @@ class Printer {
     void fail_card(int disk);
     void select_file(std::string_view name);
     bool start_or_resume_job();
+    /// False when there is no paused job.
+    bool resume_job();
     /// Finishes the moves that are planned, then parks the head if it is to.
     void pause_job(bool park = true);
     /// M26: where the file goes on; the place of a job that is under way changes at once.
@@ -96,6 +100,27 @@ class Printer {
     bool close_job();
     /// M112: job, heaters and motors off at once.
     void emergency_stop();
+    /// M0, M108: a job that waits for the user goes on, and so does a board that waits without one.
+    void user_continues();
+    /// The controller of a heater is tuned at `c`, until stop_tuning() or a reset: it is hot meanwhile.
+    void start_tuning(HeaterId heater, double c);
+    void stop_tuning();
+    /// The nozzle counts as too cold for filament below `c`, if that is more than the machine's own bound.
+    void chill(double c);
+
+    // A board that stands still, and one that starts anew.
+    // ------------------------------------------------------------------------
+    /// The board's program stops, until power_on(): nothing is read, moved or raised. Heaters keep what they
+    /// were given, or (`powered` false) get nothing.
+    void hang(bool powered);
+    bool hung() const { return hung_; }
+    /// The board is to be reset, by whoever owns it; asking takes it.
+    void request_reset() { reset_ = true; }
+    bool take_reset();
+    /// The USB side has said something.
+    void hear_host(SimTime now);
+    /// It has within the last seconds: somebody prints through the board.
+    bool host_active() const;
     /// Filament state as L3 tells it: 255 detector off, else 1 with and 0 without filament.
     int filament_code() const { return !filament.detector ? 255 : filament.present ? 1 : 0; }
     /// Both disks as L2 tells them: SD in the low nibble, U-disk in the high one when the board has such a
@@ -118,12 +143,18 @@ class Printer {
     Transfer transfer{storage};
     Job job;
     JobRunner runner;
+    GcodeModal modal;
+    HostCommands host;
     ScreenSide screen;
     Wifi wifi;
     Steppers steppers;
     PowerLoss power_loss;
     EventQueue events;
     std::unique_ptr<Resin> resin;  ///< null on boards of other printers
+    FilamentPath filament_path;
+    Breakdowns breakdowns{*this};
+    bool refusing = false;  ///< files are not selected or started, as while a job is under way
+    bool tuning = false;    ///< of a heater's controller
 
     /// What the EEPROM holds, and what it is written to.
     EepromImage eeprom_image;
@@ -139,6 +170,9 @@ class Printer {
   private:
     void emit_after_motion();
     void put_in(int disk);
+    void raise_alarms();
+    void follow_filament();
+    bool too_cold_to_extrude() const;
 
     std::shared_ptr<const MachineConfig> config_;
     Services services_;
@@ -149,6 +183,11 @@ class Printer {
     SimTime now_{0};
     SimTime card_check_ = never;  ///< when the board finds out that there is no card
     SimTime stall_{0};
+    double chilled_c_ = 0;
+    HeaterId tuned_ = HeaterId::nozzle;
+    bool hung_ = false;
+    bool reset_ = false;
+    std::optional<SimTime> host_heard_;
     std::uint64_t random_state_;
 };
 

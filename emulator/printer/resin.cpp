@@ -21,8 +21,9 @@ bool quote(char c) {
 }  // namespace
 
 std::string_view to_string(Resin::Outcome outcome) {
-    constexpr std::array<std::string_view, 6> names{"opened",  "no_name", "no_stick",
-                                                    "missing", "busy",    "unprintable"};
+    constexpr std::array<std::string_view, 10> names{"opened",  "no_name",     "no_stick", "missing",
+                                                     "busy",    "unprintable", "written",  "not_written",
+                                                     "removed", "not_removed"};
     return names[static_cast<std::size_t>(outcome)];
 }
 
@@ -61,6 +62,7 @@ void Resin::power_on(SimTime now) {
     asked.clear();
     file.clear();
     file_bytes = 0;
+    replaced = false;
     fan.reset();
     wifi_password.clear();
     network_name.clear();
@@ -88,14 +90,51 @@ void Resin::advance(SimTime now) {
     }
 }
 
-void Resin::choose(std::string_view name) {
+/// The name without what may stand around it; it is the one asked for, unless it is empty.
+std::string_view Resin::take_name(std::string_view name) {
     const std::string_view bare = bare_name(name);
     const std::string_view plain = bare.substr(std::min(bare.find_first_not_of('/'), bare.size()));
     if (plain.empty()) {
         outcome = Outcome::no_name;
+    } else {
+        asked = plain;
+    }
+    return plain;
+}
+
+bool Resin::in_print(const Storage::Found& found) const {
+    return printer_.job.active() && found.path == printer_.job.path();
+}
+
+void Resin::remove(std::string_view name) {
+    const std::string_view plain = take_name(name);
+    if (plain.empty()) {
         return;
     }
-    asked = plain;
+    const bool may = printer_.storage.usable(0) && !in_print(printer_.storage.find(plain));
+    outcome = may && printer_.storage.remove(plain) ? Outcome::removed : Outcome::not_removed;
+}
+
+void Resin::write(std::string_view name, std::string_view bytes) {
+    const std::string_view plain = take_name(name);
+    if (plain.empty()) {
+        return;
+    }
+    if (!printer_.storage.usable(0)) {
+        outcome = Outcome::no_stick;
+        return;
+    }
+    const Storage::Found found = printer_.storage.find(plain);
+    replaced = found.kind == Volume::Kind::file;
+    const bool done = !in_print(found) && printer_.storage.write(replaced ? found.path : plain, bytes);
+    outcome = done ? Outcome::written : Outcome::not_written;
+}
+
+void Resin::choose(std::string_view name) {
+    const std::string_view plain = take_name(name);
+    if (plain.empty()) {
+        return;
+    }
     if (printer_.job.active()) {
         outcome = Outcome::busy;
         printer_.events.raise(EventId::job_refused);

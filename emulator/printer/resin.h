@@ -10,6 +10,7 @@
 #include "emulator/printer/resin_job.h"
 #include "emulator/printer/resin_settings.h"
 #include "emulator/printer/sim_time.h"
+#include "emulator/printer/storage.h"
 
 namespace fauxboard::printer {
 
@@ -19,7 +20,18 @@ class Printer;
 class Resin {
   public:
     /// What became of a file that was asked for.
-    enum class Outcome : std::uint8_t { opened, no_name, no_stick, missing, busy, unprintable };
+    enum class Outcome : std::uint8_t {
+        opened,
+        no_name,
+        no_stick,
+        missing,
+        busy,
+        unprintable,
+        written,
+        not_written,
+        removed,
+        not_removed
+    };
 
     explicit Resin(Printer& printer);
 
@@ -43,7 +55,13 @@ class Resin {
     /// Starts the file chosen, or goes on with a paused job. False, and `outcome` says why, when neither is
     /// possible.
     bool start();
+    /// Removes a file of the stick (M30); not the one being printed.
+    void remove(std::string_view name);
+    /// Writes a file onto the stick (M8512, M8093); not over the one being printed.
+    void write(std::string_view name, std::string_view bytes);
     Outcome outcome = Outcome::opened;
+    /// The file that was written replaced another one.
+    bool replaced = false;
     /// The name that was asked for last, without quotes, colon and leading slash.
     std::string asked;
     /// The file chosen as the board tells it: its name, or "/folder/name". Stays when the job is over.
@@ -71,6 +89,8 @@ class Resin {
 
   private:
     bool on_by(double rule) const;
+    std::string_view take_name(std::string_view name);
+    bool in_print(const Storage::Found& found) const;
 
     Printer& printer_;
     const ResinConfig& config_;

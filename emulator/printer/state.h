@@ -58,6 +58,14 @@ struct Filament {
     bool present = false;
 };
 
+/// What became of the filament, apart from what the board believes.
+struct FilamentPath {
+    double lost = 0;        ///< share of what is extruded that does not move: a jam
+    double moved_mm = 0;    ///< that has really gone through
+    double stuck_mm = 0;    ///< extruded since it last moved
+    double counted_mm = 0;  ///< of what was extruded, so much is in moved_mm or lost
+};
+
 struct ScreenSide {
     bool known = false;  ///< told us its firmware since power-on
     std::string firmware;

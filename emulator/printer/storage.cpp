@@ -147,6 +147,12 @@ void Storage::listing(std::vector<CardEntry>& out, unsigned limit) const {
     }
 }
 
+Volume::Kind Storage::look(int disk, std::string_view path) const {
+    std::uint64_t bytes = 0;
+    const Volume::Kind kind = usable(disk) ? volumes_[index(disk)]->look(path, bytes) : Volume::Kind::missing;
+    return kind == Volume::Kind::file ? file_trouble_ : kind;
+}
+
 Storage::Found Storage::find(std::string_view name) const {
     Found found;
     if (!usable(chosen_)) {
@@ -162,6 +168,7 @@ Storage::Found Storage::find(std::string_view name) const {
         if (found.kind == Volume::Kind::missing && ignore_case_ && respell(volume, path)) {
             found.kind = volume.look(path, found.bytes);
         }
+        found.kind = found.kind == Volume::Kind::file ? file_trouble_ : found.kind;
         found.path = std::move(path);
         return found.kind != Volume::Kind::missing;
     };

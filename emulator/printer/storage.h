@@ -102,8 +102,14 @@ class Storage {
     /// all.
     void listing(std::vector<CardEntry>& out, unsigned limit) const;
 
-    /// The disk in the slot, if it is usable.
-    const Volume* volume(int disk) const { return usable(disk) ? volumes_[index(disk)] : nullptr; }
+    /// The disk in the slot, if it is usable and its files can be read.
+    const Volume* volume(int disk) const {
+        return usable(disk) && file_trouble_ == Volume::Kind::file ? volumes_[index(disk)] : nullptr;
+    }
+    /// What stands at `path` on the disk.
+    Volume::Kind look(int disk, std::string_view path) const;
+    /// What every file is found to be that is there: Kind::file for no trouble, missing or unreadable.
+    void set_file_trouble(Volume::Kind kind) { file_trouble_ = kind; }
 
     /// The same, to write to.
     Volume* volume(int disk) { return usable(disk) ? volumes_[index(disk)] : nullptr; }
@@ -135,6 +141,7 @@ class Storage {
     static std::size_t index(int disk) { return disk == 1 ? 1 : 0; }
     std::array<Volume*, disk_count> volumes_{};
     std::array<DiskState, disk_count> states_{DiskState::removed, DiskState::removed};
+    Volume::Kind file_trouble_ = Volume::Kind::file;
     int chosen_ = 0;
     std::string folder_;
     bool way_back_ = true;

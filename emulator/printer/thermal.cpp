@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "emulator/printer/thermal_crosstalk.h"
 #include "emulator/printer/thermal_fold.h"
@@ -11,6 +12,7 @@ namespace fauxboard::printer {
 namespace {
 
 constexpr double rest_within_k = 0.005;
+constexpr double near_max_k = 50;
 // A change of exactly 1.0 counts, also where it is made of two sevenths of a degree.
 constexpr double report_change_c = 1.0 - 1e-9;
 
@@ -29,8 +31,10 @@ void Thermal::power_on(SimTime now) {
         elapsed = now - (next_ - config_->period);
     }
     for (Heater& h : heaters_) {
-        h.plant.step_partly(elapsed, share_of_full(h), h.commanded);
+        h.plant.step_partly(elapsed, real_power(h), h.commanded);
         h.pid.reset();
+        h.protection.reset();
+        h.alarmed = false;
         h.target_c = 0;
         h.output = 0;
         h.commanded = false;
@@ -41,6 +45,8 @@ void Thermal::power_on(SimTime now) {
     since_power_on_ = 0;
     moved_ = false;
     at_rest_ = false;
+    frozen_ = false;
+    powered_ = true;
 }
 
 void Thermal::advance(SimTime now) {
@@ -93,9 +99,9 @@ void Thermal::set_ambient(double c) {
 }
 
 void Thermal::measure() {
-    if (since_power_on_ < config_->warm_up_measurements) {
+    if (frozen_ || since_power_on_ < config_->warm_up_measurements) {
         for (Heater& h : heaters_)
-            h.plant.step(share_of_full(h), h.commanded);
+            h.plant.step(powered_ ? real_power(h) : 0.0, h.commanded);
         ++index_;
         ++since_power_on_;
         return;
@@ -104,12 +110,13 @@ void Thermal::measure() {
     const bool first = since_power_on_ == config_->warm_up_measurements;
     bool at_rest = !first;  // the first reading may be off
     for (Heater& h : heaters_) {
-        h.plant.step(share_of_full(h), h.commanded);
+        h.plant.step(real_power(h), h.commanded);
         at_rest &= h.plant.settle(rest_within_k);
         read_sensor(h);
         control(h);
         at_rest &= !h.commanded;
     }
+    protect();
     read_input(ThermalChannel::t1, config_->t1);
     read_input(ThermalChannel::t2, config_->t2);
     if (first || at_rest) {
@@ -120,11 +127,75 @@ void Thermal::measure() {
     ++since_power_on_;
 }
 
+/// What really warms it: more, or less, than the board gives when it is broken.
+double Thermal::real_power(const Heater& h) {
+    return std::max(h.trouble.stuck, share_of_full(h) * h.trouble.strength);
+}
+
+double Thermal::sensed_c(const Heater& h) {
+    if (h.trouble.open || h.trouble.shorted) {
+        const ProtectionConfig& ends = h.config->protection;
+        return h.trouble.open ? ends.open_reads_c : ends.shorted_reads_c;
+    }
+    const double c = h.plant.sensor_c();
+    return h.trouble.contact == 1 ? c : h.plant.ambient_c() + (c - h.plant.ambient_c()) * h.trouble.contact;
+}
+
+void Thermal::set_trouble(HeaterId id, const HeaterTrouble& trouble) {
+    heater(id).trouble = trouble;
+    at_rest_ = false;
+}
+
+std::optional<HeaterId> Thermal::take_alarm() {
+    for (const HeaterId id : {HeaterId::nozzle, HeaterId::bed}) {
+        if (std::exchange(heater(id).alarmed, false)) {
+            return id;
+        }
+    }
+    return std::nullopt;
+}
+
+SimTime Thermal::next_alarm_check() const {
+    if (settled() || frozen_) {
+        return never;
+    }
+    for (const Heater& h : heaters_) {
+        // Nothing else rises so fast that it needs to be looked at before something else comes up.
+        const bool warm = sensed_c(h) > h.config->protection.max_c - near_max_k;
+        if (h.target_c != 0 || h.commanded || h.trouble.stuck > 0 || warm) {
+            return next_;
+        }
+    }
+    return never;
+}
+
+void Thermal::freeze(bool powered) {
+    frozen_ = true;
+    powered_ = powered;
+    at_rest_ = false;
+}
+
+/// Looks at what was just read. A heater that is found to be broken puts both off, with this measurement.
+void Thermal::protect() {
+    bool off = false;
+    for (Heater& h : heaters_) {
+        const bool found = h.protection.check(next_, h.target_c, printed_c(h.channel));
+        h.alarmed = h.alarmed || found;
+        off = off || found;
+    }
+    if (off) {
+        for (Heater& h : heaters_) {
+            h.target_c = 0;
+            control(h);
+        }
+    }
+}
+
 void Thermal::read_sensor(Heater& h) {
     const PlantConfig& plant = h.config->plant;
     const double offset_c =
         since_power_on_ == config_->warm_up_measurements ? plant.first_reading_offset_c : 0.0;
-    print(h.channel, quantise(h.plant.sensor_c() + offset_c, plant.counts_per_c));
+    print(h.channel, quantise(sensed_c(h) + offset_c, plant.counts_per_c));
 }
 
 void Thermal::control(Heater& h) {

@@ -3,10 +3,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "emulator/printer/thermal_config.h"
 #include "emulator/printer/thermal_pid.h"
 #include "emulator/printer/thermal_plant.h"
+#include "emulator/printer/thermal_protection.h"
 
 namespace fauxboard::printer {
 
@@ -15,6 +17,16 @@ enum class HeaterId : std::uint8_t { nozzle, bed };
 /// The four temperatures a board prints: bed, nozzle, and the two inputs that have no sensor on a mixing
 /// printer.
 enum class ThermalChannel : std::uint8_t { bed, t0, t1, t2 };
+
+/// What is wrong with a heater and its sensor. Physical: it outlives a reset.
+struct HeaterTrouble {
+    bool open = false;     ///< the sensor's wire is broken
+    bool shorted = false;  ///< its wires touch
+    double contact = 1;    ///< share of the heat above the surroundings that the sensor feels, 0..1
+    double strength = 1;   ///< share of its power that the heater has, 0..1
+    double stuck = 0;      ///< share of its power that is on whatever the board wants, 0..1
+    bool operator==(const HeaterTrouble&) const = default;
+};
 
 /// The heaters of a board and what it reads and prints of them. Everything happens at the measurements, every
 /// `period` from power-on (0.3 s on the A30T): read all channels, control both heaters. Between them nothing
@@ -49,14 +61,28 @@ class Thermal {
     double target_c(HeaterId id) const { return heater(id).target_c; }
     bool heating(HeaterId id) const { return heater(id).target_c != 0; }
 
-    /// What the sensor really feels, at the last measurement.
+    /// What is at the sensor's place, at the last measurement.
     double temperature_c(HeaterId id) const { return heater(id).plant.sensor_c(); }
+    /// What the sensor tells of it, neither quantised nor folded: the same, unless it is broken.
+    double sensed_c(HeaterId id) const { return sensed_c(heater(id)); }
+
+    const HeaterTrouble& trouble(HeaterId id) const { return heater(id).trouble; }
+    void set_trouble(HeaterId id, const HeaterTrouble& trouble);
+    /// A heater found to be broken since the last call; both are off since. Once for each.
+    std::optional<HeaterId> take_alarm();
+    /// Why it was, until it is heated anew or the board restarts.
+    ThermalAlarm alarm(HeaterId id) const { return heater(id).protection.alarm(); }
+    /// A measurement that may raise an alarm; `never` if none can.
+    SimTime next_alarm_check() const;
+    /// The board's program stands still: nothing is read or controlled until it restarts. Heaters stay as
+    /// they are, or lose their power.
+    void freeze(bool powered);
 
     /// What the board prints: quantised, and folded when the config says so. 0.0 before the first
     /// measurement.
     double printed_c(ThermalChannel channel) const { return printed_[static_cast<std::size_t>(channel)]; }
 
-    /// The heater's output, 0..1.
+    /// What the board gives the heater, 0..1.
     double power(HeaterId id) const { return share_of_full(heater(id)); }
 
     /// Where M109/M190 stop waiting: printed >= target - done_within_c.
@@ -82,21 +108,28 @@ class Thermal {
             : config(&heater_config),
               plant(heater_config.plant, period),
               pid(heater_config.pid),
+              protection(heater_config.protection),
               channel(heater_channel) {}
 
         const HeaterConfig* config;
         ThermalPlant plant;
         ThermalPid pid;
+        ThermalProtection protection;
+        HeaterTrouble trouble{};
         ThermalChannel channel;
         double target_c{0};
         double output{0};       // 0..max_output, constant until the next measurement
         bool commanded{false};  // had a target at the last measurement
+        bool alarmed{false};    // not taken yet
     };
 
     const Heater& heater(HeaterId id) const { return heaters_[static_cast<std::size_t>(id)]; }
     Heater& heater(HeaterId id) { return heaters_[static_cast<std::size_t>(id)]; }
     static double share_of_full(const Heater& h) { return h.output / h.config->pid.max_output; }
+    static double real_power(const Heater& h);
+    static double sensed_c(const Heater& h);
     void measure();
+    void protect();
     void read_sensor(Heater& h);
     void control(Heater& h);
     void read_input(ThermalChannel channel, const SensorlessInputConfig& input);
@@ -113,6 +146,8 @@ class Thermal {
     std::uint64_t since_power_on_{0};  // measurements
     bool moved_{false};
     bool at_rest_{false};
+    bool frozen_{false};
+    bool powered_{true};
 };
 
 }  // namespace fauxboard::printer

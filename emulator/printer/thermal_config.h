@@ -53,9 +53,28 @@ struct PidConfig {
     double max_output{4095};
 };
 
+/// How the board finds out that a heater or its sensor is broken: as Marlin does, with numbers of its own
+/// kind. None of them is a recorded fact of the A30T; they are such that nothing it does when it is well
+/// comes near them.
+struct ProtectionConfig {
+    /// A heater that is on and reads less is too cold: a broken wire. More than max_c is too hot, on or off.
+    double min_c{5};
+    double max_c{275};
+    /// Heating up, it must rise by watch_rise_c in each watch_s.
+    double watch_s{20};
+    double watch_rise_c{2};
+    /// Once there, it may be more than runaway_c below its target for runaway_s.
+    double runaway_s{40};
+    double runaway_c{15};
+    /// What an open and a shorted sensor read: the ends of the firmware's table.
+    double open_reads_c{0};
+    double shorted_reads_c{300};
+};
+
 struct HeaterConfig {
     PlantConfig plant;
     PidConfig pid;
+    ProtectionConfig protection{};
     double max_target_c{0};
     /// M109/M190 end when the printed temperature reaches target minus this.
     double done_within_c{0};
@@ -115,6 +134,7 @@ inline HeaterConfig a30t_bed() {
                       .counts_per_c = 15,
                       .first_reading_offset_c = 0.07},
             .pid = {.kp = 236, .ki = 9.29, .kd = 13.6, .k1 = 0.35, .range_c = 5.07},
+            .protection = {.max_c = 150, .watch_s = 60, .runaway_s = 60, .runaway_c = 8},
             .max_target_c = 100,
             .done_within_c = 3};
 }

@@ -29,6 +29,8 @@ class ThermalPlant {
     /// What the sensor feels, degrees C, neither quantised nor folded.
     double sensor_c() const { return ambient_c_ + state_[2]; }
 
+    double ambient_c() const { return ambient_c_; }
+
     /// Everything within `within_k` of ambient and no heat under way: then all is put at ambient exactly.
     /// Returns whether it is so.
     bool settle(double within_k);

@@ -17,7 +17,8 @@ using std::string;
 namespace {
 
 struct Bench {
-    printer::Printer machine{fauxboard::testing::small_profile()->machine, {}, 1};
+    printer::Printer machine{
+        fauxboard::testing::small_profile(R"({ "machine": { "resin": {} } })")->machine, {}, 1};
     Bench() { machine.power_on(printer::SimTime{0}); }
     double number(std::string_view path) { return find_field(path)->get(machine).number; }
 };

@@ -60,6 +60,7 @@ TEST_CASE("host: M290 is announced to the screen once homed, refused without a w
 TEST_CASE("host: a checksum is judged where there is one, whatever the screen's line demands") {
     BoardDriver driver;
     get_ready(driver);
+    driver.host("M110 N6");
     const std::string right = "N7 M117 a*" + std::to_string(protocol::xor_checksum("N7 M117 a"));
     CHECK(join(after(driver, right.c_str())) == "L14  a\n");
     CHECK(after(driver, "N8 M117 b*1").empty());
@@ -85,6 +86,6 @@ TEST_CASE("host: lines of both sides are told apart") {
     const auto& received = driver.received();
     REQUIRE(received.size() >= 2);
     CHECK(received.back().line == "N-0 M105*10");
-    CHECK(received.back().channel == board::Channel::screen);
+    CHECK(received.back().channel == board::Channel::main);
     CHECK(received[received.size() - 2].channel == board::Channel::host);
 }

@@ -214,7 +214,8 @@ TEST_CASE("faults: add, list, change, remove, clear, and the mistakes") {
     CHECK(client.code(R"({"op": "faults.clear"})").empty());
     CHECK(client.ask(R"({"op": "faults.list"})")["faults"].empty());
     bench.with_faults = false;
-    CHECK(client.code(R"({"op": "faults.list"})") == "not-here");
+    CHECK(client.code(R"({"op": "faults.add", "spec": "drop"})") == "not-here");
+    CHECK(client.ask(R"({"op": "faults.list"})")["faults"].empty());
     CHECK(bench.answers());
 }
 

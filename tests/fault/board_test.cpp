@@ -94,6 +94,7 @@ TEST_CASE("board: every kind of fault, both ways, and after it is cleared the bo
                                  "cut:probability=0.3",
                                  "merge:probability=0.3",
                                  "nul_burst:probability=0.3,where=inside",
+                                 "stray_ok:every=2",
                                  "wrong_checksum:every=2",
                                  "silence:probability=0.3,for=700ms",
                                  "disconnect:probability=0.3,for=700ms"};

@@ -115,6 +115,17 @@ bool nuls_come_in(const Way& way) {
            way.came.bytes.size() > way.said.bytes.size();
 }
 
+bool strays_come_in(const Way& way) {
+    constexpr std::string_view stray = "ok N:0\r\n";
+    std::string came = way.came.bytes;
+    std::size_t strays = 0;
+    for (std::size_t at = came.find(stray); at != std::string::npos; at = came.find(stray, at)) {
+        came.erase(at, stray.size());
+        ++strays;
+    }
+    return strays != 0 && came == way.said.bytes;
+}
+
 bool checksums_are_changed(const Way& way) {
     const auto came = lines(way.came);
     const auto said = lines(way.said);
@@ -138,6 +149,7 @@ constexpr Row rows[] = {{"drop", "", lines_are_lost},
                         {"cut", "", lines_are_cut},
                         {"merge", "", lines_are_merged},
                         {"nul_burst", "where=inside", nuls_come_in},
+                        {"stray_ok", "", strays_come_in},
                         {"wrong_checksum", "", checksums_are_changed},
                         {"silence", "for=2s", all_is_lost_for_a_while},
                         {"disconnect", "for=2s", all_is_lost_for_a_while, false}};

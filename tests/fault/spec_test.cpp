@@ -68,10 +68,10 @@ TEST_CASE("fifteen wrong specs, fifteen sentences") {
         {"garbel:to_screen",
          "fault \"garbel:to_screen\": unknown kind \"garbel\"; expected one of drop, garble, duplicate, "
          "delay, slow, "
-         "cut, merge, nul_burst, wrong_checksum, silence, disconnect; did you mean \"garble\"?"},
+         "cut, merge, nul_burst, stray_ok, wrong_checksum, silence, disconnect; did you mean \"garble\"?"},
         {"",
          "fault: found no kind; expected one of drop, garble, duplicate, delay, slow, cut, merge, nul_burst, "
-         "wrong_checksum, silence, disconnect"},
+         "stray_ok, wrong_checksum, silence, disconnect"},
         {"garble:bit=1",
          "fault \"garble:bit=1\": unknown attribute \"bit\"; garble takes bits, bytes, direction, "
          "probability, every, "
@@ -182,7 +182,7 @@ TEST_CASE("every attribute of every kind survives both forms, at both bounds and
 
 TEST_CASE("the reference names every kind and attribute") {
     const Json reference = describe_kinds();
-    CHECK(reference["kinds"].size() == 11);
+    CHECK(reference["kinds"].size() == 12);
     CHECK(reference["common"].size() == 10);
     CHECK(
         reference["kinds"][3] ==

@@ -40,7 +40,7 @@ class Witness final : public board::Observer {
     void on_received(SimTime now, board::Channel, std::string_view line, board::Verdict) override {
         look(now, line);
     }
-    void on_sent(SimTime now, std::string_view line) override { look(now, line); }
+    void on_sent(SimTime now, board::Channel, std::string_view line) override { look(now, line); }
     void on_notice(SimTime now, board::Level, std::string_view text) override { look(now, text); }
 
   private:
@@ -118,7 +118,7 @@ void Run::feed(bool host, std::string_view bytes) {
     }
     const SimTime when = std::max(SimTime{0}, now_ - back_);
     const auto give = [&](std::string_view piece) {
-        host ? board_.receive_host(when, piece) : board_.receive(when, piece);
+        board_.receive(when, piece, host ? board::Channel::host : board::Channel::main);
     };
     if (split_) {
         for (std::size_t i = 0; i < bytes.size(); ++i) {
@@ -127,10 +127,12 @@ void Run::feed(bool host, std::string_view bytes) {
     } else {
         give(bytes);
     }
-    if (!board_.output().empty()) {
+    const bool spoke = !board_.output().empty();
+    require(board_.output(board::Channel::host).size() <= output_bound, "output to the host grows without bound");
+    if (spoke) {
         take(board_.time(), board_.output());
-        board_.clear_output();
     }
+    board_.clear_output();
 }
 
 void Run::pass(SimTime time) {

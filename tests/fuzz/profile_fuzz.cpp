@@ -32,7 +32,7 @@ void run(const std::shared_ptr<const behaviour::Profile>& profile, bool pacing) 
     SimTime now{0};
     for (const std::string_view request : requests) {
         board.receive(now, protocol::frame(request));
-        board.receive_host(now, std::string(request) + "\n");
+        board.receive(now, std::string(request) + "\n", board::Channel::host);
         check_output(board.output(), false);
         board.clear_output();
         now += std::chrono::seconds(1);

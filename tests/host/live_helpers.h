@@ -78,7 +78,7 @@ struct Witness final : LiveObserver {
     void on_received(SimTime, board::Channel, std::string_view line, board::Verdict) override {
         received.emplace_back(line);
     }
-    void on_sent(SimTime, std::string_view line) override { sent.emplace_back(line); }
+    void on_sent(SimTime, board::Channel, std::string_view line) override { sent.emplace_back(line); }
     void on_notice(SimTime, board::Level, std::string_view text) override { notices.emplace_back(text); }
     void on_link(SimTime, link::LinkState, std::string_view why) override { links.emplace_back(why); }
 };

@@ -40,7 +40,7 @@ TEST_CASE("a line of the log has time, direction, bytes and words, and no colour
     const Pipe pipe;
     TextOutput out(pipe.out.get());
     LineLog log(out, Detail::normal, 100);
-    log.on_received(12'345'678us, Channel::screen, "N-0 M104 S200*74", Verdict::accepted);
+    log.on_received(12'345'678us, Channel::main, "N-0 M104 S200*74", Verdict::accepted);
     const std::string text = pipe.take();
     CHECK(text.starts_with("    12.346  screen → board  N-0 M104 S200*74"));
     CHECK(contains(text, "nozzle: target 200 °C"));
@@ -52,7 +52,7 @@ TEST_CASE("bytes that a terminal would obey are shown as numbers") {
     TextOutput out(pipe.out.get());
     LineLog log(out, Detail::normal, 100);
     log.on_received(0us, Channel::host, "M117 \x1b[2J\xE9\x7F", Verdict::bad_frame);
-    log.on_sent(0us, "L9 SN:\xFF;");
+    log.on_sent(0us, board::Channel::main, "L9 SN:\xFF;");
     const std::string text = pipe.take();
     CHECK(contains(text, "host → board"));
     CHECK(contains(text, "\\x1B[2J\\xE9\\x7F"));
@@ -66,7 +66,7 @@ TEST_CASE("levels") {
         const Pipe pipe;
         TextOutput out(pipe.out.get());
         LineLog log(out, detail, 100);
-        log.on_sent(0us, "L1");
+        log.on_sent(0us, board::Channel::main, "L1");
         log.on_link(0us, link::LinkState::up, "here");
         for (const Level level : {Level::debug, Level::info, Level::warning, Level::error})
             log.on_notice(0us, level, "text");
@@ -83,14 +83,14 @@ TEST_CASE("a flood is cut short, and its size is told") {
     LineLog log(out, Detail::normal, 100);
     std::size_t shown = 0;
     for (int i = 0; i < 100'000; ++i) {  // ten seconds of 10 000 bad lines each
-        log.on_received(SimTime(i * 100), Channel::screen, "nonsense", Verdict::bad_frame);
+        log.on_received(SimTime(i * 100), Channel::main, "nonsense", Verdict::bad_frame);
         shown += count_lines(pipe.take());
     }
     CHECK(shown > 400);
     CHECK(shown < 1500);
     log.finish(10s);
     CHECK(contains(pipe.take(), "lines left out of this log"));
-    log.on_sent(60s, "L1");
+    log.on_sent(60s, board::Channel::main, "L1");
     CHECK(count_lines(pipe.take()) == 1);
 }
 
@@ -99,11 +99,11 @@ TEST_CASE("a reader that does not read loses lines, whole ones, and holds up nob
     TextOutput out(pipe.out.get());
     JsonLog log(out);
     for (int i = 0; i < 10'000; ++i)
-        log.on_sent(SimTime(i), "N-0 L1 X0.000 Y0.000 Z0.000 F0*13");
+        log.on_sent(SimTime(i), board::Channel::main, "N-0 L1 X0.000 Y0.000 Z0.000 F0*13");
     CHECK(out.left_out() > 1000);
     const std::uint64_t left_out = out.left_out();
     pipe.take();
-    log.on_sent(1s, "L1");
+    log.on_sent(1s, board::Channel::main, "L1");
     std::istringstream text(pipe.take());
     std::string line;
     REQUIRE(std::getline(text, line));
@@ -127,7 +127,7 @@ TEST_CASE("JSON lines hold any bytes") {
     const Pipe pipe;
     TextOutput out(pipe.out.get());
     JsonLog log(out);
-    log.on_received(1'500'000us, Channel::screen, "M117 \"\xE9\\\x01", Verdict::queue_full);
+    log.on_received(1'500'000us, Channel::main, "M117 \"\xE9\\\x01", Verdict::queue_full);
     log.on_notice(2s, Level::warning, "odd bytes: \xFF");
     log.on_link(3s, link::LinkState::waiting, "gone");
     std::istringstream text(pipe.take());
@@ -148,9 +148,9 @@ TEST_CASE("a recording holds every line of the wire and can be loaded at any mom
     const link::test::TemporaryFolder folder;
     const std::string file = folder.file("talk.jsonl");
     Recorder recorder(file, {});
-    recorder.on_received(1'000'001us, Channel::screen, "N-0 M105*10", Verdict::accepted);
+    recorder.on_received(1'000'001us, Channel::main, "N-0 M105*10", Verdict::accepted);
     recorder.on_received(2s, Channel::host, "M115", Verdict::accepted);
-    recorder.on_sent(3s, "L9 SN:\xFF");
+    recorder.on_sent(3s, board::Channel::main, "L9 SN:\xFF");
     const auto lines = load_recording(file);
     REQUIRE(lines.size() == 3);
     CHECK(lines[0].t == 1'000'001us);
@@ -164,7 +164,7 @@ TEST_CASE("a full disk ends the recording once, and nothing else") {
     std::vector<std::string> troubles;
     Recorder recorder("/dev/full", [&](SimTime, std::string_view text) { troubles.emplace_back(text); });
     for (int i = 0; i < 10; ++i)
-        recorder.on_sent(1s, "L1");
+        recorder.on_sent(1s, board::Channel::main, "L1");
     CHECK(troubles.size() == 1);
     CHECK(recorder.lines() == 0);
     CHECK_THROWS_AS(Recorder("/missing/talk.jsonl", {}), HostError);

@@ -26,7 +26,7 @@ struct Talk final : LiveObserver {
     void on_received(SimTime now, board::Channel, std::string_view line, board::Verdict) override {
         told.push_back(fmt::format("{} < {}", now.count(), line));
     }
-    void on_sent(SimTime now, std::string_view line) override {
+    void on_sent(SimTime now, board::Channel, std::string_view line) override {
         told.push_back(fmt::format("{} > {}", now.count(), line));
     }
     void on_notice(SimTime, board::Level, std::string_view text) override { told.emplace_back(text); }
@@ -178,8 +178,8 @@ TEST_CASE("the log of a tap: time, direction, bytes, and words where they are as
         const link::UniqueFd fd = test::open_new(file);
         TextOutput out(fd.get());
         TapLog log(out, options);
-        log.on_sent(SimTime{1'000'001}, "N-0 L21 P0 S0*63");
-        log.on_received(SimTime{12'345'678}, board::Channel::screen, "M27\xFF", board::Verdict::accepted);
+        log.on_sent(SimTime{1'000'001}, board::Channel::main, "N-0 L21 P0 S0*63");
+        log.on_received(SimTime{12'345'678}, board::Channel::main, "M27\xFF", board::Verdict::accepted);
         log.on_link(SimTime{0}, link::LinkState::up, "A: here");
         log.on_notice(SimTime{0}, board::Level::warning, "disk full");
         return test::read_file(file);

@@ -60,6 +60,22 @@ void BoardDriver::run_until(double seconds) {
     now_ = std::max(now_, seconds);
 }
 
+bool BoardDriver::run_until_reply(double seconds) {
+    const board::SimTime end = from_seconds(seconds);
+    const std::size_t before = replies_.size();
+    while (replies_.size() == before) {
+        const board::SimTime due = board_.advance(end);
+        const bool spoke = !board_.output().empty() || replies_.size() != before;
+        take_output();
+        if (!spoke && due > end) {
+            now_ = std::max(now_, seconds);
+            return false;
+        }
+    }
+    now_ = std::max(now_, to_seconds(board_.time()));
+    return true;
+}
+
 void BoardDriver::run_to_quiet() {
     const behaviour::Schedule& schedule = board_.profile().schedule;
     const double slot = to_seconds(schedule.slot);
@@ -94,7 +110,8 @@ void BoardDriver::feed(std::string_view bytes) {
 }
 
 void BoardDriver::host(std::string_view line) {
-    board_.receive_host(from_seconds(now_), std::string(line) + "\n");
+    board_.connect(board::Channel::host, true);
+    board_.receive(from_seconds(now_), std::string(line) + "\n", board::Channel::host);
     take_output();
 }
 
@@ -175,7 +192,11 @@ void BoardDriver::on_received(board::SimTime now, board::Channel channel, std::s
     received_.push_back({to_seconds(now), channel, std::string(line), verdict});
 }
 
-void BoardDriver::on_sent(board::SimTime now, std::string_view line) {
+void BoardDriver::on_sent(board::SimTime now, board::Channel channel, std::string_view line) {
+    if (channel != board::Channel::main) {
+        replies_.push_back({to_seconds(now), std::string(line)});
+        return;
+    }
     lines_.push_back({to_seconds(now), std::string(line), said(line)});
     transcript_ += std::to_string(now.count()) + ' ' + std::string(line) + '\n';
 }

@@ -32,6 +32,10 @@ class BoardDriver final : private board::Observer {
         std::string line;
         board::Verdict verdict{};
     };
+    struct Reply {
+        double at = 0;
+        std::string line;
+    };
     struct Setup {
         bool pacing = true;
         std::uint64_t seed = 1;
@@ -46,6 +50,8 @@ class BoardDriver final : private board::Observer {
 
     void run_until(double seconds);
     void run_for(double seconds) { run_until(now_ + seconds); }
+    /// Runs on to the next reply to the USB side, but not beyond `seconds`; false when none came by then.
+    bool run_until_reply(double seconds);
     double now() const { return now_; }
 
     /// Runs on into the stretch of the next round in which the status wheel has nothing to say: 0.85 s from
@@ -59,7 +65,7 @@ class BoardDriver final : private board::Observer {
     std::vector<std::string> ask(std::string_view body, double seconds = 0.6);
     /// Bytes from the screen as they are.
     void feed(std::string_view bytes);
-    /// A line from the USB side.
+    /// A line from the USB side, without its end.
     void host(std::string_view line);
     /// Something done to the machine; the phrase must exist.
     void world(std::string_view phrase);
@@ -79,6 +85,8 @@ class BoardDriver final : private board::Observer {
     std::vector<std::string> timed(double from, double to = 1e9) const;
     /// Those of them that start so.
     std::vector<Line> matching(std::string_view start, double from = 0, double to = 1e9) const;
+    /// What the board said to the USB side; somebody is there from the first host() on.
+    const std::vector<Reply>& replies() const { return replies_; }
     const std::vector<Received>& received() const { return received_; }
     const std::vector<std::string>& notices() const { return notices_; }
     /// All that was said with its times to the microsecond, a line each.
@@ -95,11 +103,12 @@ class BoardDriver final : private board::Observer {
   private:
     void on_received(board::SimTime now, board::Channel channel, std::string_view line,
                      board::Verdict verdict) override;
-    void on_sent(board::SimTime now, std::string_view line) override;
+    void on_sent(board::SimTime now, board::Channel channel, std::string_view line) override;
     void on_notice(board::SimTime now, board::Level level, std::string_view text) override;
     void take_output();
 
     std::vector<Line> lines_;
+    std::vector<Reply> replies_;
     std::vector<Received> received_;
     std::vector<std::string> notices_;
     std::string transcript_;

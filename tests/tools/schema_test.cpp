@@ -72,11 +72,15 @@ json everything() {
                     { "zero": "xy" }, { "home": "z" }, { "to": { "x": 1, "y": 1, "z": 1, "e": 1 }, "feed_mm_s": 5, "seconds": 1 }, { "by": { "x": 1 } },
                     { "probe": "measure" }, { "homed": "xyz" }, { "wait_s": 1 }, { "lose_rounds": 1 }, { "raise": "motion.homed" } ], "park": null } },
             "filament": { "piece_s": 1, "piece_commit_s": 0.1, "feed_mm_s": 2, "min_extrude_c": 150 },
-            "card": { "present": true, "max_listed": 10, "entries": [ { "file": "a", "lines": ["G28"] }, { "folder": "b", "entries": [] } ] } },
+            "resin": { "travel_mm": 100, "power_on_mm": 10, "homing_bounce_mm": 2, "pause_lift_mm": 5, "pause_from_s": 1, "pause_to_s": 2,
+                       "stick_visible_s": 1, "stir_cycles": 3,
+                       "status": { "temp": 1, "other": 2, "mem": 3, "communication": 4, "indicator": 5, "driver": 6, "printer": 7, "lcd": 8 } },
+            "card": { "way_back": false, "ignore_case": true, "present": true, "max_listed": 10, "entries": [ { "file": "a", "lines": ["G28"] }, { "folder": "b", "entries": [] } ] } },
         "frames": {
             "plain": "L99 {position.x:.2f}",
-            "full": { "style": "bare", "line": "L98", "then": [ "heaters.reported", { "set": { "var.v": 1 } } ] },
-            "list": { "lines": [ "L97", { "for_each": "card.entries", "line": "{entry.name}" } ] } },
+            "block": { "chunk": true },
+            "full": { "style": "bare", "end": "lf", "line": "L98", "then": [ "heaters.reported", { "set": { "var.v": 1 } } ] },
+            "list": { "lines": [ "L97", { "for_each": "card.entries", "when": { "entry.folder": false }, "line": "{entry.name}" } ] } },
         "boot": [ "plain", { "frame": "full", "times": 2, "now": true, "when": { "card.usable": true } } ],
         "schedule": { "slot_ms": 100, "first_slot_ms": 10, "frozen_while": { "heating.waiting": true }, "slots": [
             { "send": "plain", "every_rounds": 2, "first_round": 1, "when": { "position.x": { "min": 1 } },

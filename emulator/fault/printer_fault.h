@@ -1,0 +1,24 @@
+#pragma once
+
+#include "emulator/fault/spec.h"
+#include "emulator/printer/breakdowns.h"
+
+namespace fauxboard::fault {
+
+/// Whether it is for the printer behind the board, and not for a line.
+bool is_for_printer(const FaultSpec& spec);
+
+/// What the machine is asked for by a spec that is for the printer.
+printer::BreakdownRequest to_request(const FaultSpec& spec);
+
+/// {"id": "p1", "fault": {"kind": "jam", ...}, "state": "active", "begin": 60.0, "over": false}; "begin" in
+/// seconds of virtual time.
+Json breakdown_to_json(const printer::Breakdown& breakdown);
+/// "Printer fault p1, jam:lost=50, is active."
+std::string breakdown_sentence(const printer::Breakdown& breakdown);
+
+/// "p1" and back; 0 for anything else.
+std::string printer_fault_id(unsigned number);
+unsigned printer_fault_number(std::string_view id);
+
+}  // namespace fauxboard::fault

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "emulator/printer/gcode_codes.h"
+#include "emulator/printer/gcode_line.h"
+#include "emulator/printer/sim_time.h"
+
+namespace fauxboard::printer {
+
+/// What the commands of the USB side do, one after the other: each begins when the one before it is over, and
+/// a move when the planner has room for it. That is how a host that waits for every `ok` is kept at the
+/// printer's pace. Shares the modal state (units, feed) with a job, as in the firmware.
+class HostCommands {
+  public:
+    explicit HostCommands(Printer& printer) : source_{printer} {}
+
+    void power_on();
+
+    /// Whether `command` may begin now. None may while one runs.
+    bool ready(std::string_view command);
+    /// It begins. Ends by over(), however it is carried out.
+    void begin(std::string_view command, SimTime now);
+    /// Carries out the command begun by the table of codes; false when the table has no such code.
+    bool run_code();
+    bool running() const { return running_; }
+    /// Whether the command begun still does something: a wait, a dwell, an arc, moves it is to wait for.
+    bool under_way() const;
+    /// It is done; raises `host.done`, unless it was acknowledged already.
+    void over();
+    /// What answered it was its acknowledgement as well ("ok T:..").
+    void acknowledge() { acknowledged_ = true; }
+
+    void advance(SimTime now);
+    SimTime next_event() const;
+
+    std::int64_t last_line = 0;                              ///< number of the last good line
+    std::uint64_t resends = 0;                               ///< lines asked for again, since power-on
+    std::uint64_t commands = 0;                              ///< carried out, since power-on
+    const std::string& command() const { return command_; }  ///< the last one begun, at most 96 bytes of it
+    std::uint64_t moves() const { return source_.moves; }
+
+  private:
+    void parse(std::string_view command);
+    void stream();
+
+    GcodeSource source_;
+    GcodeLine line_;
+    std::string parsed_;  ///< what line_ was parsed from and points into
+    std::string command_;
+    const GcodeCode* code_ = nullptr;  ///< of parsed_
+    bool running_ = false;
+    bool acknowledged_ = false;
+    SimTime busy_ = never;  ///< when the host is told next that it has to wait
+};
+
+}  // namespace fauxboard::printer

@@ -1,0 +1,120 @@
+// Every code of a ChiTu board over a real pseudo-terminal: the vectors that the board passes in virtual time.
+
+#include <fcntl.h>
+#include <poll.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <array>
+#include <fstream>
+#include <iterator>
+
+#include "tests/e2e/program.h"
+#include "tests/support/chitu.h"
+
+namespace fauxboard::e2e {
+namespace {
+
+using testing::ChituVector;
+using testing::ChituVectors;
+
+/// The client's end of a serial line, byte for byte.
+class RawPeer {
+  public:
+    explicit RawPeer(const std::string& path) : fd_(open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK)) {
+        REQUIRE(fd_.get() >= 0);
+        termios settings{};
+        REQUIRE(tcgetattr(fd_.get(), &settings) == 0);
+        cfmakeraw(&settings);
+        REQUIRE(tcsetattr(fd_.get(), TCSANOW, &settings) == 0);
+    }
+    void say(std::string_view bytes) const {
+        REQUIRE(write(fd_.get(), bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()));
+    }
+    /// All that comes up to `mark`, which is taken off.
+    std::string until(const std::string& mark) {
+        std::array<char, 4096> some{};
+        while (true) {
+            const std::size_t at = come_.find(mark);
+            if (at != std::string::npos) {
+                const std::string before = come_.substr(0, at);
+                come_.erase(0, at + mark.size());
+                return before;
+            }
+            pollfd wait{fd_.get(), POLLIN, 0};
+            if (poll(&wait, 1, patience_ms) != 1) {
+                return come_ + "(silence)";
+            }
+            const ssize_t count = read(fd_.get(), some.data(), some.size());
+            if (count > 0) {
+                come_.append(some.data(), static_cast<std::size_t>(count));
+            }
+        }
+    }
+
+  private:
+    UniqueFd fd_;
+    std::string come_;
+};
+
+/// A question that no vector asks, and its answer: what came before is what came of the question before.
+constexpr const char* last_question = "M5002\r\n";
+constexpr const char* last_answer = "0x350041 0x4d485001 0x20393150\r\n";
+
+std::string read_file(const std::string& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void check_vector(const std::string& profile, const ChituVector& vector) {
+    CAPTURE(vector.name);
+    TemporaryFolder folder;
+    testing::make_seed_stick(folder.file(""));
+    TemporaryFolder outside;
+    const std::string control = outside.file("control");
+    Program program({"run", "-q", "--profile", profile, "--sd", folder.file(""), "--control", control});
+    RawPeer peer(program.ready()["path"]);
+    const auto settle = [&] {
+        peer.say(last_question);
+        return peer.until(last_answer);
+    };
+    settle();  // the boot
+    for (const ChituVector::Preparation& step : vector.prepare) {
+        peer.say(step.send);
+        settle();
+        if (step.wait_s > 0.1) {
+            REQUIRE(run({"ctl", control, "advance", std::to_string(step.wait_s) + "s"}).code == 0);
+            settle();
+        }
+    }
+    peer.say(vector.send);
+    CHECK(settle() == vector.reply);
+    for (const auto& [name, content] : vector.files) {
+        CHECK(read_file(folder.file(name)) == content);
+    }
+}
+
+int check_file(std::string_view name) {
+    const ChituVectors file = testing::load_chitu_vectors(name);
+    int sent = 0;
+    for (const ChituVector& vector : file.vectors) {
+        if (vector.stick && vector.name != "M5002") {
+            check_vector(file.profile, vector);
+            ++sent;
+        }
+    }
+    return sent;
+}
+
+TEST_CASE("every code of a ChiTu board is answered over a pseudo-terminal, byte for byte") {
+    CHECK(check_file("chitu") > 90);
+}
+
+TEST_CASE("so are those that other ChiTu boards answer otherwise") {
+    CHECK(check_file("chitu-photon") > 5);
+    CHECK(check_file("chitu-4.4.3") > 5);
+    CHECK(check_file("chitu-saturn") > 3);
+}
+
+}  // namespace
+}  // namespace fauxboard::e2e
