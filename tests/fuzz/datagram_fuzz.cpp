@@ -55,6 +55,7 @@ class Network {
     SimTime now_{0};
     std::string last_ = std::string(first_content);
     unsigned answers_ = 0;
+    std::uint64_t position_ = 0;  ///< after the last datagram
 };
 
 void Network::pass(SimTime time) {
@@ -63,14 +64,16 @@ void Network::pass(SimTime time) {
     board_.clear_output();
 }
 
-/// The file changes by M29 and M30 alone, whoever says them, and never to half of something.
+/// The file changes by M29, M30 and M8512 alone, whoever says them, and never to half of something.
 void Network::watch(std::string_view request) {
     const std::string* const content = disk_.content(precious);
     const std::string now = content == nullptr ? std::string() : *content;
     if (now != last_) {
-        require(
-            request.find("M29") != std::string_view::npos || request.find("M30") != std::string_view::npos,
-            "a file changed before its upload was finished");
+        // However they are written: "M029", "N1 M29*39".
+        constexpr std::array<std::string_view, 3> numbers{"29", "30", "8512"};
+        require(std::any_of(numbers.begin(), numbers.end(),
+                            [&](std::string_view n) { return request.find(n) != std::string_view::npos; }),
+                "a file changed before its upload was finished");
         last_ = now;
     }
     require(board_.machine().transfer.position() <= printer::Transfer::max_bytes, "a file beyond the bound");
@@ -78,6 +81,7 @@ void Network::watch(std::string_view request) {
 
 void Network::datagram(std::uint64_t peer, std::string_view bytes) {
     board_.receive_datagram(now_, peer, bytes);
+    position_ = board_.machine().transfer.position();  // before a restart that falls due meanwhile
     std::size_t size = 0;
     board_.take_datagrams([&](std::uint64_t to, std::string_view answer) {
         require(to == peer, "an answer to somebody who did not ask");
@@ -104,9 +108,8 @@ void Network::chunk(std::uint64_t peer, std::uint64_t number, bool damaged) {
     }
     const bool owner = board_.machine().transfer.takes_from(peer);
     datagram(peer, {room.data(), size});
-    const std::uint64_t after = board_.machine().transfer.position();
-    require(!damaged || !owner || after == at, "a damaged chunk was written");
-    require(after == at || after == at + payload.size(), "a chunk was written in part");
+    require(!damaged || !owner || position_ == at, "a damaged chunk was written");
+    require(position_ == at || position_ == at + payload.size(), "a chunk was written in part");
 }
 
 void Network::step(std::string_view line) {
