@@ -19,6 +19,7 @@
 #include "emulator/host/json_log.h"
 #include "emulator/host/line_log.h"
 #include "emulator/host/live_board.h"
+#include "emulator/host/network_line.h"
 #include "emulator/host/profile_files.h"
 #include "emulator/host/profile_watch.h"
 #include "emulator/host/recorder.h"
@@ -26,6 +27,7 @@
 #include "emulator/host/script_host.h"
 #include "emulator/link/event_loop.h"
 #include "emulator/link/ports.h"
+#include "emulator/link/udp_socket.h"
 #include "tools/commands.h"
 #include "tools/report.h"
 #include "tools/run_options.h"
@@ -86,6 +88,7 @@ class Run {
     ExitCode outcome();
     std::unique_ptr<link::Link> make_host_link();
     void open_control();
+    void open_network();
     void say_ready();
     void say(board::Level level, std::string_view text);
     void reload();
@@ -113,6 +116,8 @@ class Run {
     std::unique_ptr<link::Link> host_link_;  ///< the board's USB port
     std::optional<board::Board> board_;
     std::optional<host::LiveBoard> live_;
+    std::unique_ptr<link::UdpSocket> udp_;
+    std::optional<host::NetworkLine> network_;
     std::optional<LineFaults> faults_;
     std::optional<host::ControlServer> control_;
     std::optional<host::ScriptHost> script_;
@@ -243,6 +248,13 @@ ExitCode Run::outcome() {
     return tell_outcome(options_, script_->player(), *board_, faults, out_, err_);
 }
 
+void Run::open_network() {
+    if (!options_.udp.empty()) {
+        udp_ = link::make_udp_socket(loop_, options_.udp);
+        udp_->open(network_.emplace(*live_, *udp_, &observers_));
+    }
+}
+
 void Run::say_ready() {
     nlohmann::ordered_json ready{
         {"profile", profile_->name}, {"link", link_->kind()}, {"path", link_->path()}};
@@ -257,6 +269,9 @@ void Run::say_ready() {
     }
     if (control_) {
         ready["control"] = options_.control;
+    }
+    if (udp_) {
+        ready["udp"] = udp_->path();
     }
     out_.write("ready " + ready.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) + "\n");
     if (options_.json) {
@@ -318,6 +333,7 @@ ExitCode Run::operator()() {
     });
     open_control();
     open_script();
+    open_network();
     link_->open(*live_);
     if (options_.host.wanted()) {
         host_link_ = make_host_link();
@@ -347,6 +363,9 @@ ExitCode Run::operator()() {
     clock_->run();
     if (control_) {
         control_->close();
+    }
+    if (udp_) {
+        udp_->close();
     }
     link_->close();
     if (plug_) {

@@ -23,6 +23,11 @@ void declare_line(CLI::App& command, RunOptions& options) {
                            ->expected(0, 1);
     port->excludes(tcp)->excludes(pty);
     tcp->excludes(pty);
+    command
+        .add_option(
+            "--udp", options.udp,
+            "The board's network module beside the line: datagrams on this port (the boards have 3000)")
+        ->type_name("HOST:PORT");
     add_baud(command, options.baud, "Bits per second (default: the profile's)");
     command.add_flag_callback(
         "--no-pacing", [&options] { options.pacing = false; },

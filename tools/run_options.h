@@ -28,6 +28,7 @@ struct RunOptions {
     std::string profile = "geeetech-a30t";
     std::string port;      ///< a device or "auto"; empty: none
     std::string tcp;       ///< "HOST:PORT"; empty: none
+    std::string udp;       ///< "HOST:PORT"; empty: none
     std::string pty_name;  ///< symlink to our pty; empty: none
     unsigned baud = 0;     ///< bit/s; 0: what the profile says
     HostLine host;

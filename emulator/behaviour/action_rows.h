@@ -37,6 +37,7 @@ inline void refuse(ActionContext& c, std::string_view what) {
 std::span<const ActionInfo> machine_actions();
 std::span<const ActionInfo> device_actions();
 std::span<const ActionInfo> resin_actions();
+std::span<const ActionInfo> transfer_actions();
 std::span<const ActionInfo> fault_actions();
 
 }  // namespace fauxboard::behaviour::rows

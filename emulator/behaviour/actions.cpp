@@ -25,7 +25,7 @@ const std::vector<ActionInfo>& all() {
              nullptr},
         };
         for (const auto part : {rows::machine_actions(), rows::device_actions(), rows::fault_actions(),
-                                rows::resin_actions()}) {
+                                rows::resin_actions(), rows::transfer_actions()}) {
             rows.insert(rows.end(), part.begin(), part.end());
         }
         return rows;

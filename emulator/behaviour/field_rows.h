@@ -86,6 +86,7 @@ std::span<const Field> machine_fields();
 std::span<const Field> settings_fields();
 std::span<const Field> device_fields();
 std::span<const Field> resin_fields();
+std::span<const Field> transfer_fields();
 std::span<const Field> fault_fields();
 
 }  // namespace fauxboard::behaviour::rows

@@ -15,9 +15,8 @@ namespace {
 const std::vector<Field>& all() {
     static const std::vector<Field> table = [] {
         std::vector<Field> rows;
-        for (const auto part :
-             {rows::machine_fields(), rows::settings_fields(), rows::device_fields(), rows::fault_fields(),
-              rows::resin_fields()}) {
+        for (const auto part : {rows::machine_fields(), rows::settings_fields(), rows::device_fields(),
+                                rows::fault_fields(), rows::resin_fields(), rows::transfer_fields()}) {
             rows.insert(rows.end(), part.begin(), part.end());
         }
         return rows;

@@ -51,6 +51,7 @@ struct Frame {
     std::string name;
     protocol::FrameStyle style = protocol::FrameStyle::framed;
     protocol::LineEnd end = protocol::LineEnd::crlf;
+    bool chunk = false;  ///< no lines: the block of a file that transfer.block read
     std::optional<Channel> to;  ///< nothing: the channel that asked; the main line, if nobody asked
     std::vector<Line> lines;
     std::vector<ActionCall> then;  ///< done when it is queued

@@ -199,7 +199,12 @@ void Loader::load_frame(const Json& node, const std::string& pointer, Frame& fra
     }
     const Json* text = reader.get("line");
     const Json* lines = reader.get("lines");
-    if ((text == nullptr) == (lines == nullptr)) {
+    reader.boolean("chunk", frame.chunk);
+    if (frame.chunk) {
+        if (text != nullptr || lines != nullptr) {
+            findings_.add(pointer, "a frame with \"chunk\" has no lines of its own");
+        }
+    } else if ((text == nullptr) == (lines == nullptr)) {
         findings_.add(pointer, "expected either \"line\" or \"lines\"");
     } else if (text != nullptr) {
         frame.lines.push_back({compile(*text, reader.pointer("line"), false), false, {}});

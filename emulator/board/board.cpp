@@ -82,6 +82,7 @@ void Board::power_on(SimTime now) {
     last_tick_ = now - profile_->tick;
     inbox_.clear();
     outbox_.clear();
+    network_ = NetworkOutbox();
     host_inbox_.clear();
     asker_ = Channel::main;
     for (Port& each : ports_) {
@@ -158,16 +159,9 @@ void Board::take_line(Channel channel, std::string_view line) {
         return;
     }
     std::string_view body;
-    bool bad = false;
-    bool ticks = true;
-    if (profile_->line.framing == behaviour::Framing::smartto) {
-        const protocol::Unframed unframed = protocol::unframe(line, profile_->line.checksum);
-        body = unframed.body;
-        bad = unframed.fault != protocol::FrameFault::none;
-        ticks = is_code(body);
-    } else {
-        body = protocol::unframe_host_line(line).body;
-    }
+    const bool bad = !unframe(line, body);
+    // Words are no commands to a board of frames, and take no tick.
+    const bool ticks = profile_->line.framing != behaviour::Framing::smartto || is_code(body);
     Verdict verdict = Verdict::accepted;
     const bool paced = options_.pacing && channel == Channel::main;
     const bool waits = paced ? ticks : port(channel).output.size() >= output_limit;
@@ -188,6 +182,17 @@ void Board::take_line(Channel channel, std::string_view line) {
         settle();
         run_host();
     }
+}
+
+/// Takes a request out of the frame that the main line has. False when its checksum is wrong.
+bool Board::unframe(std::string_view line, std::string_view& body) const {
+    if (profile_->line.framing != behaviour::Framing::smartto) {
+        body = protocol::unframe_host_line(line).body;
+        return true;
+    }
+    const protocol::Unframed unframed = protocol::unframe(line, profile_->line.checksum);
+    body = unframed.body;
+    return unframed.fault == protocol::FrameFault::none;
 }
 
 void Board::execute(Channel channel, std::string_view body) {
@@ -290,11 +295,11 @@ void Board::send(const Send& entry, const Scope& here) {
     }
     const Frame& frame = profile_->frames[entry.frame];
     const Channel to = frame.to.value_or(asker_);
-    if (!port(to).connected) {
+    if (to == Channel::network ? !network_.asking() : !port(to).connected) {
         return;
     }
     for (unsigned i = 0; i < entry.times; ++i) {
-        const bool at_once = entry.now || !options_.pacing || to != Channel::main;
+        const bool at_once = to != Channel::network && (entry.now || !options_.pacing || to != Channel::main);
         const bool short_one = frame.lines.size() == 1 && !frame.lines[0].for_each_entry;
         OutputBuffer& output = port(to).output;
         Draft draft{at_once ? output.room(short_one ? line_bytes : scratch_bytes)
@@ -308,7 +313,13 @@ void Board::send(const Send& entry, const Scope& here) {
             }
         }
         const std::string_view message(draft.room.data(), draft.size);
-        if (at_once) {
+        if (to == Channel::network) {
+            network_.add(message, frame.chunk);
+            counters_.lines_sent += draft.lines;
+            if (!frame.chunk) {
+                tell_sent(to, message);
+            }
+        } else if (at_once) {
             output.grow(draft.size);
             counters_.lines_sent += draft.lines;
             if (to == Channel::host && message.starts_with(acknowledgement)) {
@@ -340,6 +351,14 @@ void Board::compose_line(const Frame& frame, const behaviour::FrameTemplate& tex
 }
 
 void Board::compose(const Frame& frame, const Scope& here, Draft& draft) {
+    if (frame.chunk) {
+        const printer::Transfer& transfer = machine_.transfer;
+        const std::string_view block = transfer.last_block.view();
+        draft.size = protocol::write_chunk(
+            draft.room, static_cast<std::uint32_t>(transfer.position() - block.size()), block);
+        draft.lines = 1;
+        return;
+    }
     const std::size_t end = draft.room.size();
     for (const Frame::Line& line : frame.lines) {
         if (!line.for_each_entry) {

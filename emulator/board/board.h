@@ -13,10 +13,12 @@
 #include "emulator/behaviour/notice.h"
 #include "emulator/behaviour/profile.h"
 #include "emulator/board/message_queue.h"
+#include "emulator/board/network_outbox.h"
 #include "emulator/board/output_buffer.h"
 #include "emulator/board/wheel.h"
 #include "emulator/printer/printer.h"
 #include "emulator/printer/sim_time.h"
+#include "protocol/chitu_chunk.h"
 #include "protocol/framing.h"
 
 namespace fauxboard::board {
@@ -24,6 +26,16 @@ namespace fauxboard::board {
 using behaviour::Channel;
 using behaviour::Level;
 using printer::SimTime;
+
+/// Who speaks on a line, for logs: the other end, and the board's own.
+constexpr std::string_view other_end(Channel channel) {
+    constexpr std::string_view names[] = {"screen", "host", "network"};
+    return names[static_cast<std::size_t>(channel)];
+}
+constexpr std::string_view own_end(Channel channel) {
+    constexpr std::string_view names[] = {"board", "usb", "module"};
+    return names[static_cast<std::size_t>(channel)];
+}
 
 /// What became of a received line.
 enum class Verdict : std::uint8_t { accepted, bad_frame, queue_full };
@@ -85,6 +97,14 @@ class Board final : private behaviour::NoticeSink {
     /// Whether somebody is at the other end of a line: of the main line somebody always is, of the others at
     /// first nobody. What would go to nobody is not said.
     void connect(Channel channel, bool connected) { ports_[index(channel)].connected = connected; }
+    /// A datagram of the network from `peer`, a number that is not 0: one request, or a piece of the file
+    /// that it uploads. Carried out at once; what the board says to it is for take_datagrams().
+    void receive_datagram(SimTime now, std::uint64_t peer, std::string_view bytes);
+    /// Calls out(peer, bytes) for each datagram to send, and forgets them.
+    template <class Out>
+    void take_datagrams(Out&& out) {
+        network_.take(std::forward<Out>(out));
+    }
     /// Does something to the machine: an action without required arguments, by name or by phrase ("filament
     /// in"). False when there is none of that name.
     bool world(SimTime now, std::string_view phrase);
@@ -147,7 +167,10 @@ class Board final : private behaviour::NoticeSink {
     void take_host_line(std::string_view line);
     void tell_received(Channel channel, std::string_view line, Verdict verdict);
     void run_host();
+    bool unframe(std::string_view line, std::string_view& body) const;
     void execute(Channel channel, std::string_view body);
+    void take_piece(std::uint64_t peer, const protocol::Chunk& chunk);
+    void take_request(std::string_view bytes);
     void run_rule(const behaviour::Rule& rule, const behaviour::Scope& scope);
     bool run_rules(const std::vector<behaviour::Rule>& rules, const protocol::Command* command);
     void run_events();
@@ -180,6 +203,7 @@ class Board final : private behaviour::NoticeSink {
     printer::Printer machine_;
     Wheel wheel_;
     std::array<Port, behaviour::channel_count> ports_;
+    NetworkOutbox network_;
     MessageQueue inbox_;             ///< of the main line
     MessageQueue outbox_;            ///< same
     MessageQueue host_inbox_;        ///< of the USB side

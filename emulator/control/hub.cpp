@@ -78,7 +78,7 @@ void Hub::on_received(SimTime now, board::Channel channel, std::string_view line
     tell([](const auto& s) { return s.traffic; },
          [&] {
              Json made = event("traffic", now);
-             made["from"] = channel == board::Channel::main ? "screen" : "host";
+             made["from"] = board::other_end(channel);
              made["line"] = behaviour::from_wire(line);
              if (verdict != board::Verdict::accepted) {
                  made["refused"] = verdict == board::Verdict::bad_frame ? "bad frame" : "queue full";
@@ -91,7 +91,7 @@ void Hub::on_sent(SimTime now, board::Channel channel, std::string_view line) {
     tell([](const auto& s) { return s.traffic; },
          [&] {
              Json made = event("traffic", now);
-             made["from"] = channel == board::Channel::host ? "usb" : "board";
+             made["from"] = board::own_end(channel);
              made["line"] = behaviour::from_wire(line);
              return made;
          });

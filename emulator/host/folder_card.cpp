@@ -135,7 +135,8 @@ bool FolderCard::list(std::string_view folder, std::vector<CardEntry>& out) cons
 UniqueFd FolderCard::open_parent(std::string_view path, std::string& name) const {
     const std::size_t slash = path.rfind('/');
     name = slash == std::string_view::npos ? path : path.substr(slash + 1);
-    return usable_name(name)
+    const bool empty_part = slash == 0 || (slash != std::string_view::npos && path[slash - 1] == '/');
+    return usable_name(name) && !empty_part
                ? open_folder(slash == std::string_view::npos ? std::string_view{} : path.substr(0, slash))
                : UniqueFd{};
 }

@@ -47,15 +47,13 @@ void JsonLog::write(SimTime now, std::string_view members) {
 
 void JsonLog::on_received(SimTime now, board::Channel channel, std::string_view line,
                           board::Verdict verdict) {
-    const std::string_view from = channel == board::Channel::main ? "screen" : "host";
-    std::string members = line_members(from, line, protocol::Direction::to_board);
+    std::string members = line_members(board::other_end(channel), line, protocol::Direction::to_board);
     members += refusal(verdict);
     write(now, members);
 }
 
 void JsonLog::on_sent(SimTime now, board::Channel channel, std::string_view line) {
-    write(now, line_members(channel == board::Channel::host ? "usb" : "board", line,
-                            protocol::Direction::to_screen));
+    write(now, line_members(board::own_end(channel), line, protocol::Direction::to_screen));
 }
 
 void JsonLog::on_notice(SimTime now, board::Level level, std::string_view text) {

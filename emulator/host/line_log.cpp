@@ -110,14 +110,14 @@ void LineLog::on_received(SimTime now, board::Channel channel, std::string_view 
     std::string words = words_of(line, protocol::Direction::to_board);
     words += words_of(verdict);
     print(now, verdict == board::Verdict::accepted ? cyan : red,
-          channel == board::Channel::main ? "screen → board" : "host → board", printable(line), words);
+          fmt::format("{} → board", board::other_end(channel)), printable(line), words);
 }
 
 void LineLog::on_sent(SimTime now, board::Channel channel, std::string_view line) {
     if (detail_ != Detail::quiet && passes(now)) {
-        const bool usb = channel == board::Channel::host;
-        print(now, green, usb ? "board → host" : "board → screen", printable(line),
-              usb ? std::string() : words_of(line, protocol::Direction::to_screen));
+        const bool screen = channel == board::Channel::main;
+        print(now, green, fmt::format("board → {}", board::other_end(channel)), printable(line),
+              screen ? words_of(line, protocol::Direction::to_screen) : std::string());
     }
 }
 

@@ -42,6 +42,11 @@ void LiveBoard::send_output() {
         line->send_output();
     }
     board_.clear_output();
+    board_.take_datagrams([this](std::uint64_t peer, std::string_view bytes) {
+        if (datagram_sender_) {
+            datagram_sender_(peer, bytes);
+        }
+    });
 }
 
 /// Does what is due up to `now`, or as much of it as fits into one turn.

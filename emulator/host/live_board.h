@@ -32,6 +32,10 @@ class LiveBoard final : public link::LinkListener {
     /// come, and soon after each visit(), with the board and its machine brought up to that time. Set before
     /// start().
     void follow(std::function<SimTime(SimTime now)> follower) { follower_ = std::move(follower); }
+    /// Where the board's datagrams go: called with whom each is for; nothing drops them.
+    void on_datagrams(std::function<void(std::uint64_t peer, std::string_view bytes)> sender) {
+        datagram_sender_ = std::move(sender);
+    }
     /// Virtual time, no later than the end.
     SimTime now() const;
 
@@ -77,6 +81,7 @@ class LiveBoard final : public link::LinkListener {
     LiveObserver* observer_;
     std::function<void()> on_end_;
     std::function<SimTime(SimTime)> follower_;
+    std::function<void(std::uint64_t, std::string_view)> datagram_sender_;
     SimTime end_{0};
     SimTime due_{0};                    ///< what the board's last advance() returned
     SimTime show_due_{printer::never};  ///< what the follower last returned

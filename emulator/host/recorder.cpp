@@ -26,11 +26,16 @@ Recorder::Recorder(std::string file, OnTrouble on_trouble)
 }
 
 void Recorder::on_received(SimTime now, board::Channel channel, std::string_view line, board::Verdict) {
-    write(now, channel == board::Channel::main ? "screen" : "host", line);
+    // Datagrams are left out: without what files brought, they would replay as something else.
+    if (channel != board::Channel::network) {
+        write(now, board::other_end(channel), line);
+    }
 }
 
 void Recorder::on_sent(SimTime now, board::Channel channel, std::string_view line) {
-    write(now, channel == board::Channel::host ? "usb" : "board", line);
+    if (channel != board::Channel::network) {
+        write(now, board::own_end(channel), line);
+    }
 }
 
 void Recorder::write(SimTime now, std::string_view from, std::string_view line) {

@@ -69,6 +69,10 @@ constexpr std::array<EventInfo, event_count> table{{
      "the supply breaks down; there is still time to store what must be kept"},
     {EventId::job_layer_done, "job.layer_done", "a layer of a resin print has been exposed"},
     {EventId::board_reboot_due, "board.reboot_due", "the time that board.reboot was given has passed"},
+    {EventId::transfer_piece, "transfer.piece",
+     "a piece of an uploaded file came in; transfer.outcome says what became of it, and what is sent goes to "
+     "its "
+     "sender"},
 }};
 
 consteval bool ordered() {

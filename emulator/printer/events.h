@@ -62,6 +62,7 @@ enum class EventId : std::uint8_t {
     power_lost,
     job_layer_done,
     board_reboot_due,
+    transfer_piece,
     count_  // not an event
 };
 

@@ -51,6 +51,7 @@ void Printer::power_on(SimTime now) {
     leveling.manual_z_mm = config_->manual_level_start_mm;
     filament.detector = Filament{}.detector;  // whether filament is in it is physical and stays
     storage.choose(0);
+    transfer.power_on();
     job.power_on();
     runner.power_on();
     modal = {};

@@ -24,6 +24,7 @@
 #include "emulator/printer/state.h"
 #include "emulator/printer/storage.h"
 #include "emulator/printer/thermal.h"
+#include "emulator/printer/transfer.h"
 
 namespace fauxboard::printer {
 
@@ -143,6 +144,7 @@ class Printer {
     Leveling leveling;
     Filament filament;
     Storage storage;
+    Transfer transfer{storage};
     Job job;
     JobRunner runner;
     GcodeModal modal;

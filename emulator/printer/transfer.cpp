@@ -19,6 +19,9 @@ void Transfer::power_on() {
     mode_ = Mode::none;
     outcome = Outcome::done;
     name_.clear();
+    asked_.clear();
+    asker = serial_line;
+    last_block.size = 0;
     path_.clear();
     existed_ = false;
     position_ = bytes_ = 0;
@@ -55,6 +58,7 @@ bool Transfer::may_go_on(SimTime now, Peer peer, Mode mode) {
 }
 
 bool Transfer::upload(SimTime now, Peer peer, std::string_view name) {
+    asked_ = name;
     if (!may_begin(now, peer)) {
         return false;
     }
@@ -109,6 +113,7 @@ bool Transfer::finish(SimTime now, Peer peer) {
 }
 
 bool Transfer::download(SimTime now, Peer peer, std::string_view name) {
+    asked_ = name;
     if (!may_begin(now, peer)) {
         return false;
     }
@@ -157,6 +162,13 @@ bool Transfer::block(SimTime now, Peer peer, std::span<char> out, std::size_t& g
     got = *read;
     position_ += got;
     return say(got == 0 ? Outcome::at_end : Outcome::done);
+}
+
+bool Transfer::remove(std::string_view name) {
+    asked_ = name;
+    return say(!storage_.usable(storage_.chosen()) ? Outcome::no_disk
+               : storage_.remove(name)             ? Outcome::done
+                                                   : Outcome::missing);
 }
 
 bool Transfer::close(SimTime now, Peer peer) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -34,6 +36,8 @@ class Transfer {
         at_end,        ///< no bytes from there on
     };
 
+    static constexpr Peer serial_line = 0;
+    static constexpr std::size_t max_block = 1280;
     static constexpr SimTime idle_limit = std::chrono::seconds(30);
     static constexpr std::uint64_t max_bytes = 0x8000'0000;
 
@@ -54,16 +58,30 @@ class Transfer {
     bool seek(SimTime now, Peer peer, std::uint64_t offset);
     /// The next block, into the start of `out`; `got` bytes of it. It began at `got` before position().
     bool block(SimTime now, Peer peer, std::span<char> out, std::size_t& got);
+    /// M30: a file of the chosen disk goes.
+    bool remove(std::string_view name);
     /// M22: what is open is closed; of an upload nothing remains.
     bool close(SimTime now, Peer peer);
 
     Outcome outcome = Outcome::done;
+    /// Who sent the request that is being carried out; the board says it. 0 is the serial line.
+    Peer asker = serial_line;
+
+    /// The block that goes out: what block() was last told to fill. It begins at position() less its size.
+    struct Block {
+        std::array<char, max_block> room{};
+        std::size_t size = 0;
+        std::string_view view() const { return {room.data(), size}; }
+    };
+    Block last_block;  ///< of the request that is being carried out
 
     Mode mode() const { return mode_; }
     /// Whether this one's upload is open, so that what it sends may be pieces.
     bool takes_from(Peer peer) const { return mode_ == Mode::upload && peer == owner_; }
     /// As it was asked for; stays when it is over.
     const std::string& name() const { return name_; }
+    /// The name that was last asked for, refused or not.
+    const std::string& asked() const { return asked_; }
     /// Whether the disk had a file of the name when the upload began.
     bool existed() const { return existed_; }
     /// The place in the file that the next piece or block begins at.
@@ -86,6 +104,7 @@ class Transfer {
     SimTime last_{0};
     int disk_ = 0;
     std::string name_;
+    std::string asked_;
     std::string path_;
     bool existed_ = false;
     std::uint64_t position_ = 0;

@@ -118,7 +118,7 @@ TEST_CASE("sliced: each mistake has its exit code and its sentence") {
         {{"sliced", whole, "--layer", "4", "--png", out}, bad_input, "There is no layer 4"},
         {{"sliced", whole, "--preview", "large", "--png", out}, bad_input, "no large preview"},
         {{"sliced", whole, "--layer", "0", "--png", "/missing/out.png"}, bad_input, "cannot be written"},
-        {{"sliced", wrong, "--layer", "1", "--png", out}, bad_input, "pixels missing"},
+        {{"sliced", wrong, "--layer", "1", "--png", out}, bad_input, "its last run is cut off"},
     });
     CHECK_FALSE(std::filesystem::exists(out));
     const Result told = run({"sliced", wrong});

@@ -78,6 +78,7 @@ json everything() {
             "card": { "way_back": false, "ignore_case": true, "present": true, "max_listed": 10, "entries": [ { "file": "a", "lines": ["G28"] }, { "folder": "b", "entries": [] } ] } },
         "frames": {
             "plain": "L99 {position.x:.2f}",
+            "block": { "chunk": true },
             "full": { "style": "bare", "end": "lf", "line": "L98", "then": [ "heaters.reported", { "set": { "var.v": 1 } } ] },
             "list": { "lines": [ "L97", { "for_each": "card.entries", "when": { "entry.folder": false }, "line": "{entry.name}" } ] } },
         "boot": [ "plain", { "frame": "full", "times": 2, "now": true, "when": { "card.usable": true } } ],

@@ -1,0 +1,72 @@
+// A file onto the chosen disk, or off it, piece by piece. Each leaves what became of it in transfer.outcome.
+
+#include <array>
+
+#include "emulator/behaviour/action_rows.h"
+
+namespace fauxboard::behaviour::rows {
+namespace {
+
+using enum ArgType;
+using printer::Transfer;
+
+std::string_view words(const Value& v) {
+    return v.is_text() ? v.text : std::string_view{};
+}
+
+/// The place in a file that a request names; beyond every file when it is none.
+std::uint64_t place(const Value& v) {
+    return v.number >= 0 && v.number < static_cast<double>(Transfer::max_bytes)
+               ? static_cast<std::uint64_t>(v.number)
+               : Transfer::max_bytes;
+}
+
+void upload(ActionContext& c, Args a) {
+    c.printer.transfer.upload(c.printer.now(), c.printer.transfer.asker, words(a[0]));
+}
+
+void download(ActionContext& c, Args a) {
+    c.printer.transfer.download(c.printer.now(), c.printer.transfer.asker, words(a[0]));
+}
+
+void block(ActionContext& c, Args a) {
+    Transfer& transfer = c.printer.transfer;
+    transfer.last_block.size = 0;
+    if (!a[0].is_number() || transfer.seek(c.printer.now(), transfer.asker, place(a[0]))) {
+        transfer.block(c.printer.now(), transfer.asker, transfer.last_block.room, transfer.last_block.size);
+    }
+}
+
+constexpr std::array name_args{ArgInfo{"name", text, false, "of the file, from the root of the disk on"}};
+constexpr std::array block_args{
+    ArgInfo{"offset", number, false, "byte it begins at; if left out, the next one"}};
+
+constexpr std::array table{
+    ActionInfo{"transfer.upload", "", "begins to take a file in (M28); written beside until it is finished",
+               name_args, upload},
+    ActionInfo{
+        "transfer.finish",
+        "",
+        "the upload is whole and takes its name (M29)",
+        {},
+        [](ActionContext& c, Args) { c.printer.transfer.finish(c.printer.now(), c.printer.transfer.asker); }},
+    ActionInfo{"transfer.download", "", "begins to give a file out (M6032)", name_args, download},
+    ActionInfo{"transfer.block", "", "reads a block of it, for a frame with \"chunk\" (M3000, M3001)",
+               block_args, block},
+    ActionInfo{
+        "transfer.close",
+        "",
+        "closes what is open (M22); of an upload nothing remains",
+        {},
+        [](ActionContext& c, Args) { c.printer.transfer.close(c.printer.now(), c.printer.transfer.asker); }},
+    ActionInfo{"transfer.remove", "", "removes a file of the disk (M30)", name_args,
+               [](ActionContext& c, Args a) { c.printer.transfer.remove(words(a[0])); }},
+};
+
+}  // namespace
+
+std::span<const ActionInfo> transfer_actions() {
+    return table;
+}
+
+}  // namespace fauxboard::behaviour::rows

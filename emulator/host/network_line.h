@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string_view>
+
+#include "emulator/host/live_board.h"
+#include "emulator/host/live_observer.h"
+#include "emulator/link/udp_socket.h"
+
+namespace fauxboard::host {
+
+/// A live board's side of the network: what its socket hears goes to the board, and the answers back to their
+/// askers. Live board and socket outlive it.
+class NetworkLine final : public link::UdpListener {
+  public:
+    NetworkLine(LiveBoard& board, link::UdpSocket& socket, LiveObserver* observer)
+        : board_(board), socket_(socket), observer_(observer) {
+        board_.on_datagrams(
+            [this](std::uint64_t peer, std::string_view bytes) { socket_.send(peer, bytes); });
+    }
+    ~NetworkLine() override { board_.on_datagrams({}); }
+    NetworkLine(const NetworkLine&) = delete;
+    NetworkLine& operator=(const NetworkLine&) = delete;
+
+    void on_datagram(link::UdpPeer from, std::string_view bytes) override {
+        board_.visit([&](board::Board& board, SimTime now) { board.receive_datagram(now, from, bytes); });
+    }
+    void on_trouble(std::string_view why) override {
+        if (observer_ != nullptr) {
+            observer_->on_notice(board_.now(), board::Level::warning, why);
+        }
+    }
+
+  private:
+    LiveBoard& board_;
+    link::UdpSocket& socket_;
+    LiveObserver* observer_;
+};
+
+}  // namespace fauxboard::host
