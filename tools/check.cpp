@@ -1,4 +1,4 @@
-// `fauxboard check`: are these profiles and screens right?
+// `fauxboard check`: are these profiles, screens and scenarios right?
 
 #include <fmt/format.h>
 
@@ -71,10 +71,10 @@ ExitCode check(const std::vector<std::string>& files, bool as_json) {
 
 void add_check(CLI::App& app, ExitCode& exit) {
     CLI::App* command =
-        app.add_subcommand("check", "Check profiles and screens: their meaning, then their form");
+        app.add_subcommand("check", "Check profiles, screens and scenarios: their meaning, then their form");
     const auto files = std::make_shared<std::vector<std::string>>();
     const auto as_json = std::make_shared<bool>(false);
-    command->add_option("file", *files, "Files, or names of profiles")->required();
+    command->add_option("file", *files, "Files, or names of profiles, screens and scenarios")->required();
     command->add_flag("--json", *as_json, "As a JSON array");
     command->callback([files, as_json, &exit] { exit = check(*files, *as_json); });
 }

@@ -6,6 +6,7 @@
 
 #include "emulator/behaviour/profile.h"
 #include "emulator/host/profile_files.h"
+#include "emulator/host/script_files.h"
 #include "emulator/screen/screen_profile.h"
 
 namespace fauxboard::tools {
@@ -27,6 +28,7 @@ constexpr Kind kinds[] = {
      [](const SourceText& source) { behaviour::load_profile(source, host::profile_finder()); }},
     {"screen.schema.json",
      [](const SourceText& source) { screen::load_screen(source, host::profile_finder()); }},
+    {"scenario.schema.json", [](const SourceText& source) { host::check_script(source); }},
 };
 
 std::optional<SourceText> read(const fs::path& file) {
@@ -42,13 +44,15 @@ std::optional<SourceText> read(const fs::path& file) {
                       std::string(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>())};
 }
 
-/// The file itself; else a profile or a screen of that name.
+/// The file itself; else a profile, a screen or a scenario of that name.
 std::optional<SourceText> find(const std::string& file) {
     auto source = read(file);
     if (!source && file.find('/') == std::string::npos) {
         source = host::profile_finder()(file, {});
         for (const fs::path& folder : host::profile_folders()) {
-            if (!source) source = read(folder / "screens" / (file + ".json"));
+            for (const char* kind : {"screens", "scenarios"}) {
+                if (!source) source = read(folder / kind / (file + ".json"));
+            }
         }
     }
     return source;

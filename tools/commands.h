@@ -7,13 +7,14 @@ namespace fauxboard::tools {
 /// What the program's exit tells a script. Documented in `fauxboard --help` and the README.
 enum class ExitCode : int {
     ok = 0,
-    failed = 1,     ///< it ran, and the answer is no: a difference, a wrong profile, an expectation not met
-    usage = 2,      ///< the command line itself is wrong
-    bad_input = 3,  ///< a profile, recording or script to work with is missing or wrong
-    no_port = 4,    ///< a port, socket or link name cannot be opened
-    timed_out = 5,  ///< nothing came in the time allowed
-    gone = 6,       ///< the other end went away before it answered
-    internal = 70,  ///< a bug: please report it
+    failed = 1,       ///< it ran, and the answer is no: a difference, a wrong profile, an expectation not met
+    usage = 2,        ///< the command line itself is wrong
+    bad_input = 3,    ///< a profile, recording or script to work with is missing or wrong
+    no_port = 4,      ///< a port, socket or link name cannot be opened
+    timed_out = 5,    ///< nothing came in the time allowed
+    gone = 6,         ///< the other end went away before it answered
+    interrupted = 7,  ///< the scenario was ended before it was through
+    internal = 70,    ///< a bug: please report it
 };
 
 /// Each subcommand lives in one file and adds itself. Its callback leaves its result in `exit`.

@@ -49,9 +49,10 @@ ExitCode describe(const DescribeArguments& arguments) {
 }  // namespace
 
 void add_describe(CLI::App& app, ExitCode& exit) {
-    CLI::App* command = app.add_subcommand(
-        "describe",
-        "The reference: fields, actions, events, codes of the protocol, line faults, the control channel");
+    CLI::App* command = app.add_subcommand("describe",
+                                           "The reference: fields, actions, events, codes of the protocol, "
+                                           "faults of line and printer, the control channel, "
+                                           "scenarios");
     const auto arguments = std::make_shared<DescribeArguments>();
     command->add_option("part", arguments->parts, "Which parts; all when none is named")
         ->check(CLI::IsMember(std::vector<std::string>(reference_parts.begin(), reference_parts.end())));

@@ -1,6 +1,6 @@
 #pragma once
 
-// The chapter of line faults, for people.
+// The chapter of faults, of lines and of the printer, for people.
 
 #include <nlohmann/json.hpp>
 #include <string>

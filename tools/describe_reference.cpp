@@ -6,6 +6,7 @@
 #include "emulator/control/ops.h"
 #include "emulator/fault/kind.h"
 #include "emulator/printer/events.h"
+#include "emulator/script/steps.h"
 #include "protocol/catalogue.h"
 
 namespace fauxboard::tools {
@@ -99,6 +100,8 @@ Json reference_json(std::span<const std::string_view> parts) {
             out[name] = fault::describe_kinds();
         } else if (part == "control") {
             out[name] = control::describe_control();
+        } else if (part == "scenarios") {
+            out[name] = script::describe_scenarios();
         }
     }
     return out;

@@ -13,10 +13,11 @@
 namespace fauxboard::tools {
 
 /// The parts of the reference, in its order.
-inline constexpr std::array<std::string_view, 6> reference_parts{"fields", "actions", "events",
-                                                                 "codes",  "faults",  "control"};
+inline constexpr std::array<std::string_view, 7> reference_parts{
+    "fields", "actions", "events", "codes", "faults", "control", "scenarios"};
 
-/// The parts asked for, each under its name: an array of rows; faults and control an object of several.
+/// The parts asked for, each under its name: an array of rows; faults, control and scenarios an object of
+/// several.
 nlohmann::ordered_json reference_json(std::span<const std::string_view> parts);
 
 /// For a terminal.

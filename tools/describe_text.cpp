@@ -8,6 +8,7 @@
 #include "tools/describe_control.h"
 #include "tools/describe_faults.h"
 #include "tools/describe_reference.h"
+#include "tools/describe_scenarios.h"
 
 namespace fauxboard::tools {
 namespace {
@@ -229,6 +230,8 @@ std::string reference_text(std::span<const std::string_view> parts) {
             text += faults_text(rows);
         } else if (part == "control") {
             text += control_text(rows);
+        } else if (part == "scenarios") {
+            text += scenarios_text(rows);
         }
     }
     return text;
@@ -250,6 +253,7 @@ std::string reference_markdown() {
     codes_of(reference["codes"], "to_screen", "To the screen", out);
     text += faults_markdown(reference["faults"]);
     text += control_markdown(reference["control"]);
+    text += scenarios_markdown(reference["scenarios"]);
     return text;
 }
 

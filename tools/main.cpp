@@ -30,18 +30,21 @@ constexpr const char* examples =
   fauxboard run --port auto              a real screen on the only USB-TTL adapter
   fauxboard run --pty=/tmp/screen        a pseudo-terminal for a program, with a name
   fauxboard run --tcp 127.0.0.1:4000     a socket
+  fauxboard run --script day-of-bad-luck --speed max   a scenario, as a test
   fauxboard send --port /tmp/screen M105   ask it for its temperatures
   fauxboard profiles                     the boards it can be
   fauxboard COMMAND --help               all about one command
 
 Exit codes:
   0   done
-  1   it ran, and the answer is no: a difference, a wrong profile, an expectation not met
+  1   it ran, and the answer is no: a difference, a wrong profile, an expectation not met,
+      a scenario that failed
   2   the command line is wrong
-  3   a profile, recording, folder or file to work with is missing or wrong
+  3   a profile, scenario, recording, folder or file to work with is missing or wrong
   4   a port, socket or link name cannot be opened
-  5   nothing came in the time allowed
+  5   nothing came in the time allowed; a wait of a scenario was in vain
   6   the other end went away before it answered
+  7   the scenario was ended before it was through: by a signal, by --duration
   70  a bug in fauxboard: please report it)";
 
 /// A descriptor closed by our caller would be given to the first port that we open, and text meant for people

@@ -15,17 +15,21 @@
 #include "emulator/host/faulty_link.h"
 #include "emulator/host/folder_card.h"
 #include "emulator/host/host_error.h"
+#include "emulator/host/job_place_file.h"
 #include "emulator/host/json_log.h"
 #include "emulator/host/line_log.h"
 #include "emulator/host/live_board.h"
 #include "emulator/host/profile_files.h"
 #include "emulator/host/profile_watch.h"
 #include "emulator/host/recorder.h"
+#include "emulator/host/screen_plug.h"
+#include "emulator/host/script_host.h"
 #include "emulator/link/event_loop.h"
 #include "emulator/link/ports.h"
 #include "tools/commands.h"
 #include "tools/report.h"
 #include "tools/run_options.h"
+#include "tools/run_script.h"
 // After event_loop.h, which see.
 #include <asio/signal_set.hpp>
 
@@ -55,25 +59,31 @@ class LineFaults final : public control::FaultControl {
 /// Everything that one run needs, in the order in which it must come and (backwards) go.
 class Run {
   public:
-    explicit Run(const RunOptions& options)
+    /// `scenario` may be null.
+    Run(const RunOptions& options, std::shared_ptr<const script::Scenario> scenario)
         : options_(options),
+          scenario_(std::move(scenario)),
           out_(STDOUT_FILENO),
           err_(STDERR_FILENO),
           log_(err_, options.json ? host::Detail::quiet : options.detail, log_rate(options.speed)),
           json_(out_),
-          profile_(host::load_profile_by_name(options.profile)),
+          profile_(scenario_ ? scenario_->cast.profile : host::load_profile_by_name(options.profile)),
           clock_(host::make_clock(loop_, options.speed)),
           signals_(loop_, SIGINT, SIGTERM, SIGHUP),
           watch_(loop_, [this] { reload(); }) {}
 
-    void operator()();
+    ExitCode operator()();
 
   private:
     static double log_rate(const host::Speed& speed) {
         return speed.max ? 0 : log_lines_per_second / speed.factor;
     }
     void set_up();
+    void set_up_disks(printer::Services& services);
+    link::Link& make_wire();
     std::unique_ptr<link::Link> make_link();
+    void open_script();
+    ExitCode outcome();
     std::unique_ptr<link::Link> make_host_link();
     void open_control();
     void say_ready();
@@ -82,6 +92,7 @@ class Run {
     void say_summary();
 
     const RunOptions& options_;
+    std::shared_ptr<const script::Scenario> scenario_;
     asio::io_context loop_{1};
     host::TextOutput out_;
     host::TextOutput err_;
@@ -91,22 +102,34 @@ class Run {
     std::shared_ptr<const behaviour::Profile> profile_;
     std::optional<host::FolderCard> card_;
     std::optional<host::FolderCard> udisk_;
+    std::optional<printer::BuiltInVolume> scenario_card_;
     std::optional<host::EepromFile> eeprom_;
+    std::optional<host::JobPlaceFile> job_place_;
     std::optional<host::Recorder> recorder_;
     std::unique_ptr<host::Clock> clock_;
-    std::unique_ptr<link::Link> wire_;  ///< the line as it is
+    std::unique_ptr<link::Link> wire_;  ///< the line as it is, if it leads out of this process
+    std::optional<host::ScreenPlug> plug_;
     std::optional<host::FaultyLink> link_;
     std::unique_ptr<link::Link> host_link_;  ///< the board's USB port
     std::optional<board::Board> board_;
     std::optional<host::LiveBoard> live_;
     std::optional<LineFaults> faults_;
     std::optional<host::ControlServer> control_;
+    std::optional<host::ScriptHost> script_;
     asio::signal_set signals_;
     host::ProfileWatch watch_;
 };
 
 void Run::say(board::Level level, std::string_view text) {
     observers_.on_notice(live_ ? live_->now() : SimTime{0}, level, text);
+}
+
+link::Link& Run::make_wire() {
+    if (!options_.screen.empty()) {
+        return plug_.emplace(scenario_->cast.screen, *clock_).board_end();
+    }
+    wire_ = make_link();
+    return *wire_;
 }
 
 std::unique_ptr<link::Link> Run::make_link() {
@@ -139,28 +162,18 @@ void Run::set_up() {
         observers_.add(*recorder_);
     }
     printer::Services services;
-    if (!options_.sd.empty()) {
-        services.sd = &card_.emplace(options_.sd);
-    }
-    if (!options_.udisk.empty()) {
-        if (!profile_->machine->udisk_port) {
-            throw host::HostError(
-                fmt::format("The board of the profile {} has no port for a U-disk. Leave --udisk out, or say "
-                            "\"machine\": {{\"udisk_port\": true}} in a profile of your own that extends it.",
-                            profile_->name));
-        }
-        services.udisk = &udisk_.emplace(options_.udisk, "the U-disk");
-    }
+    set_up_disks(services);
     if (!options_.eeprom.empty()) {
         services.eeprom = &eeprom_.emplace(options_.eeprom, warn);
+        services.job_place = &job_place_.emplace(eeprom_->file() + ".job", warn);
     }
     board::Options options;
     options.pacing = options_.pacing;
     options.seed = options_.seed;
     options.observer = &observers_;
     board_.emplace(profile_, services, options);
-    wire_ = make_link();
-    link_.emplace(*wire_, *clock_, fault::Direction::to_board);
+    link_.emplace(make_wire(), *clock_, fault::Direction::to_board);
+    faults_.emplace(*link_);
     for (const std::string& text : options_.faults) {
         const fault::FaultSpec spec = fault::fault_from_text(text);
         if (!fault::is_for_printer(spec)) {
@@ -174,15 +187,60 @@ void Run::set_up() {
     live_.emplace(*board_, *link_, *clock_, &observers_);
 }
 
+void Run::set_up_disks(printer::Services& services) {
+    if (!options_.sd.empty()) {
+        services.sd = &card_.emplace(options_.sd);
+    } else if (scenario_ && scenario_->card) {
+        services.sd = &scenario_card_.emplace(*scenario_->card);
+    }
+    if (!options_.udisk.empty()) {
+        if (!profile_->machine->udisk_port) {
+            throw host::HostError(
+                fmt::format("The board of the profile {} has no port for a U-disk. Leave --udisk out, or say "
+                            "\"machine\": {{\"udisk_port\": true}} in a profile of your own that extends it.",
+                            profile_->name));
+        }
+        services.udisk = &udisk_.emplace(options_.udisk, "the U-disk");
+    }
+}
+
 void Run::open_control() {
     if (options_.control.empty()) {
         return;
     }
     control_.emplace(host::ControlServer::Parts{
-        loop_, *board_, *live_, *clock_, *link_, &faults_.emplace(*link_), [this] { loop_.stop(); },
+        loop_, *board_, *live_, *clock_, *link_, &*faults_, [this] { loop_.stop(); },
         [this](std::string_view text) { say(board::Level::info, text); }});
     observers_.add(*control_);
     control_->open(options_.control);
+}
+
+void Run::open_script() {
+    if (!scenario_) {
+        return;
+    }
+    script_.emplace(host::ScriptHost::Parts{*live_, *clock_, &*faults_, plug_ ? &*plug_ : nullptr,
+                                            [this] { loop_.stop(); },
+                                            [this](std::string_view text) { say(board::Level::info, text); }},
+                    scenario_, options_.speed);
+    observers_.add(*script_);
+}
+
+/// How the scenario ended; without one all is well.
+ExitCode Run::outcome() {
+    if (!script_) {
+        return ExitCode::ok;
+    }
+    script_->interrupt("from outside");
+    board_->refresh(board_->time());
+    script::Json faults = script::Json::array();
+    for (const fault::FaultStatus& status : link_->list()) {
+        faults.push_back(fault::status_to_json(status));
+    }
+    for (const printer::Breakdown& breakdown : board_->machine().breakdowns.list()) {
+        faults.push_back(fault::breakdown_to_json(breakdown));
+    }
+    return tell_outcome(options_, script_->player(), *board_, faults, out_, err_);
 }
 
 void Run::say_ready() {
@@ -246,21 +304,27 @@ void Run::say_summary() {
     }
 }
 
-void Run::operator()() {
+ExitCode Run::operator()() {
     set_up();
-    signals_.async_wait([this](const asio::error_code& error, int) {
+    signals_.async_wait([this](const asio::error_code& error, int number) {
         if (!error) {
+            if (script_) {
+                script_->interrupt(number == SIGINT    ? "by SIGINT"
+                                   : number == SIGTERM ? "by SIGTERM"
+                                                       : "by SIGHUP");
+            }
             loop_.stop();
         }
     });
     open_control();
+    open_script();
     link_->open(*live_);
     if (options_.host.wanted()) {
         host_link_ = make_host_link();
         host_link_->open(live_->attach(board::Channel::host, *host_link_));
     }
     say_ready();
-    if (options_.reload) {
+    if (options_.reload && !scenario_) {  // which was checked against this one
         watch_.watch(profile_->files);
         if (!watch_.works()) {
             say(board::Level::info,
@@ -268,23 +332,38 @@ void Run::operator()() {
                 "not noticed");
         }
     }
-    live_->start(options_.duration, [this] { loop_.stop(); });
+    live_->start(options_.duration, [this] {
+        if (script_) {
+            script_->interrupt("by --duration");
+        }
+        loop_.stop();
+    });
+    if (plug_) {
+        plug_->start();
+    }
+    if (script_) {
+        script_->start();
+    }
     clock_->run();
     if (control_) {
         control_->close();
     }
     link_->close();
+    if (plug_) {
+        plug_->close();
+    }
     if (host_link_) {
         host_link_->close();
     }
     log_.finish(live_->now());
     say_summary();
+    return outcome();
 }
 
-ExitCode run(const RunOptions& options) {
+ExitCode run(RunOptions& options) {
     try {
-        Run{options}();
-        return ExitCode::ok;
+        auto scenario = plan_script(options);
+        return Run{options, std::move(scenario)}();
     } catch (const behaviour::ProfileError& error) {
         return complain("run", ExitCode::bad_input, error.what());
     } catch (const host::HostError& error) {
@@ -302,7 +381,12 @@ void add_run(CLI::App& app, ExitCode& exit) {
     CLI::App* command = app.add_subcommand("run", "Be a control board, live on a line");
     const auto options = std::make_shared<RunOptions>();
     declare_run_options(*command, *options);
-    command->callback([options, &exit] { exit = run(*options); });
+    command->callback([options, command, &exit] {
+        options->profile_given = command->count("--profile") != 0;
+        options->line_given =
+            command->count("--port") + command->count("--tcp") + command->count("--pty") != 0;
+        exit = run(*options);
+    });
 }
 
 }  // namespace fauxboard::tools

@@ -29,6 +29,42 @@ void declare_line(CLI::App& command, RunOptions& options) {
         "Reply at once instead of on the board's transmit tick");
 }
 
+void declare_script(CLI::App& command, RunOptions& options) {
+    CLI::Option* script =
+        command
+            .add_option("--script", options.script,
+                        "Play a scenario, a name or a file, and end with it: exit code 0 when it passed")
+            ->type_name("NAME|FILE");
+    CLI::Option* screen =
+        command
+            .add_option("--screen", options.screen,
+                        "With a virtual touch screen in this process instead of a line (default: what the "
+                        "scenario says)")
+            ->type_name("NAME|FILE")
+            ->needs(script);
+    for (const char* line : {"--port", "--tcp", "--pty"}) {
+        screen->excludes(command.get_option(line));
+    }
+    command.add_option("--param", options.params, "A parameter of the scenario: name=value; may be repeated")
+        ->type_name("NAME=VALUE")
+        ->expected(1)
+        ->take_all()
+        ->needs(script)
+        ->check([](const std::string& text) {
+            return text.find('=') == std::string::npos ? "'" + text + "': expected name=value"
+                                                       : std::string{};
+        });
+    command.add_option("--junit", options.junit, "Write the scenario's outcome as JUnit's XML")
+        ->type_name("FILE")
+        ->needs(script);
+    command
+        .add_option(
+            "--report", options.report,
+            "Write the scenario's outcome as JSON: steps, last talk, and the board's state at the end")
+        ->type_name("FILE")
+        ->needs(script);
+}
+
 /// The USB side, where a host program prints through the board while the screen shows it.
 void declare_host_line(CLI::App& command, RunOptions& options) {
     CLI::Option* pty =
@@ -109,8 +145,12 @@ void declare_run_options(CLI::App& command, RunOptions& options) {
         .add_option("--udisk", options.udisk,
                     "Folder that is the U-disk, of a board with a port for one (default: none)")
         ->type_name("DIR");
-    command.add_option("--eeprom", options.eeprom, "File that keeps the board's settings (default: none)")
+    command
+        .add_option("--eeprom", options.eeprom,
+                    "File that keeps the board's settings, and beside it FILE.job the place of a print "
+                    "(default: none)")
         ->type_name("FILE");
+    declare_script(command, options);
     declare_time(command, options);
     declare_talk(command, options);
     command

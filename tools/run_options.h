@@ -38,6 +38,13 @@ struct RunOptions {
     std::string eeprom;               ///< file; empty: in memory
     std::string record;               ///< file; empty: none
     std::string control;              ///< socket of the control channel; empty: none
+    std::string script;               ///< a scenario; empty: none
+    std::string screen;               ///< a virtual screen in this process instead of a line; empty: none
+    std::string junit;                ///< file; empty: none
+    std::string report;               ///< file; empty: none
+    std::vector<std::string> params;  ///< "name=value", of the scenario
+    bool profile_given = false;       ///< by the user, not by default
+    bool line_given = false;          ///< the same of --port, --tcp, --pty
     std::vector<std::string> faults;  ///< as fault::fault_from_text() reads them
     printer::SimTime duration = printer::never;
     bool pacing = true;

@@ -27,6 +27,7 @@ struct ArgInfo {
     ArgType type;
     bool required;
     std::string_view help;
+    std::string_view unit = {};  ///< of a number; a scenario writes it behind the value
 };
 
 /// Something a profile, a scenario or a person can do to the machine. One row here is the whole declaration:

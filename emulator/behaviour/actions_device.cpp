@@ -74,7 +74,7 @@ void stepper_select(ActionContext& c, Args a) {
     c.printer.steppers.selected = *motor;
 }
 
-constexpr std::array adjust_args{ArgInfo{"mm", number, true, "up is positive"}};
+constexpr std::array adjust_args{ArgInfo{"mm", number, true, "up is positive", "mm"}};
 constexpr std::array disk_args{ArgInfo{"disk", number, true, "0 SD card, 1 U-disk"}};
 constexpr std::array folder_args{
     ArgInfo{"name", text, true, "folder, as M20 file: names it; an empty one is the root"}};
@@ -82,8 +82,8 @@ constexpr std::array file_args{ArgInfo{"name", text, true, "file, relative to th
 constexpr std::array seek_args{ArgInfo{"byte", number, true, "position in the file"}};
 constexpr std::array prefix_args{
     ArgInfo{"fields", text, false, "only fields whose path starts so; all if left out"}};
-constexpr std::array stall_args{ArgInfo{"ms", number, true, "time, ms"},
-                                ArgInfo{"most_ms", number, false, "upper end of a random range"}};
+constexpr std::array stall_args{ArgInfo{"ms", number, true, "time, ms", "ms"},
+                                ArgInfo{"most_ms", number, false, "upper end of a random range", "ms"}};
 constexpr std::array motor_args{ArgInfo{"motor", number, true, "0 to 3"}};
 
 constexpr std::array table{
@@ -169,6 +169,22 @@ constexpr std::array table{
                "the job is at its end",
                {},
                [](ActionContext& c, Args) { c.printer.finish_job(); }},
+    ActionInfo{
+        "job.recover",
+        "",
+        "takes up the job that a power loss cut off: heats, homes X and Y, goes on where it was; raises "
+        "file.missing when its file is gone",
+        {},
+        [](ActionContext& c, Args) { c.printer.recovery.begin(); }},
+    ActionInfo{"job.forget",
+               "",
+               "drops the job that a power loss cut off",
+               {},
+               [](ActionContext& c, Args) {
+                   if (c.printer.recovery.saved() != nullptr) {
+                       c.printer.recovery.drop();
+                   }
+               }},
     ActionInfo{"job.seek", "", "position in the file (M26)", seek_args,
                [](ActionContext& c, Args a) { c.printer.seek_job(a[0].number); }},
     ActionInfo{"eeprom.save", "", "stores settings (M500)", prefix_args, eeprom_save},

@@ -132,22 +132,23 @@ void mixer_range(ActionContext& c, Args a) {
 }
 
 constexpr std::array heater_target_args{ArgInfo{"heater", text, true, "nozzle or bed"},
-                                        ArgInfo{"c", number, true, "target, C; 0 is off"}};
+                                        ArgInfo{"c", number, true, "target, C; 0 is off", "C"}};
 constexpr std::array heater_args{ArgInfo{"heater", text, true, "nozzle or bed"}};
 constexpr std::array home_args{ArgInfo{"x", boolean, false, "home X"}, ArgInfo{"y", boolean, false, "home Y"},
                                ArgInfo{"z", boolean, false, "home Z; none of the three means all"}};
 constexpr std::array run_args{
     ArgInfo{"procedure", text, true, "a name in the profile's machine.motion.procedures"}};
 constexpr std::array move_args{
-    ArgInfo{"x", number, false, "mm"},
-    ArgInfo{"y", number, false, "mm"},
-    ArgInfo{"z", number, false, "mm"},
-    ArgInfo{"e", number, false, "mm"},
-    ArgInfo{"f", number, false, "feed, mm/min; stays in force"},
+    ArgInfo{"x", number, false, "mm", "mm"},
+    ArgInfo{"y", number, false, "mm", "mm"},
+    ArgInfo{"z", number, false, "mm", "mm"},
+    ArgInfo{"e", number, false, "mm", "mm"},
+    ArgInfo{"f", number, false, "feed, mm/min; stays in force", "mm/min"},
     ArgInfo{"relative", boolean, false, "by these distances, whatever G90 and G91 say"},
     ArgInfo{"limits", boolean, false, "keep inside the build volume (default)"}};
-constexpr std::array position_args{ArgInfo{"x", number, false, "mm"}, ArgInfo{"y", number, false, "mm"},
-                                   ArgInfo{"z", number, false, "mm"}, ArgInfo{"e", number, false, "mm"}};
+constexpr std::array position_args{
+    ArgInfo{"x", number, false, "mm", "mm"}, ArgInfo{"y", number, false, "mm", "mm"},
+    ArgInfo{"z", number, false, "mm", "mm"}, ArgInfo{"e", number, false, "mm", "mm"}};
 constexpr std::array fan_args{ArgInfo{"fan", number, true, "0 part cooling, 2 second fan"},
                               ArgInfo{"value", number, true, "0 to 255"}};
 constexpr std::array weights_args{ArgInfo{"a", number, false, "weight of extruder 1"},
@@ -156,14 +157,14 @@ constexpr std::array weights_args{ArgInfo{"a", number, false, "weight of extrude
 constexpr std::array packed_args{
     ArgInfo{"ratio", number, true, "A + 256 B + 65536 C, percents that add up to 100"}};
 constexpr std::array share_args{ArgInfo{"channel", number, true, "0 to 2"},
-                                ArgInfo{"percent", number, true, "0 to 100"}};
+                                ArgInfo{"percent", number, true, "0 to 100", "%"}};
 constexpr std::array tool_args{ArgInfo{"tool", number, true, "0 to 3"}};
 constexpr std::array mode_args{ArgInfo{"mode", number, true, "0 off, 1 fixed ratio, 2 and 3 template"}};
 constexpr std::array template_args{ArgInfo{"template", number, true, "1 to 8 fixed, 9 to 14 custom"}};
 constexpr std::array range_args{ArgInfo{"start", number, false, "packed ratio at the start"},
                                 ArgInfo{"end", number, false, "packed ratio at the end"},
-                                ArgInfo{"start_height", number, false, "mm"},
-                                ArgInfo{"end_height", number, false, "mm"}};
+                                ArgInfo{"start_height", number, false, "mm", "mm"},
+                                ArgInfo{"end_height", number, false, "mm", "mm"}};
 
 constexpr std::array table{
     ActionInfo{"heater.target", "", "sets a target; beyond the machine's limits it is clamped and said",

@@ -160,8 +160,17 @@ constexpr std::array table{
         "stepper.error_limit", integer, "", 0, 65535, "largest error allowed (C9)",
         [](auto& p) -> auto& { return driver(p).error_limit; }),
 
-    stored("power_loss.saved_job", boolean, "", 0, 1, "a job cut off by a power loss is kept",
-           FAUXBOARD_PLACE(power_loss.saved_job)),
+    shown("power_loss.saved_job", boolean, "", "a job that was cut off can be taken up again",
+          [](const Printer& p) { return p.recovery.saved() != nullptr; }),
+    shown("power_loss.path", text, "", "its file",
+          [](const Printer& p) {
+              return p.recovery.saved() != nullptr ? std::string_view{p.recovery.saved()->path}
+                                                   : std::string_view{};
+          }),
+    shown("power_loss.byte", integer, "bytes", "where in its file it goes on",
+          [](const Printer& p) {
+              return p.recovery.saved() != nullptr ? static_cast<double>(p.recovery.saved()->byte) : 0.0;
+          }),
 
     shown("identity.device_name", text, "", "DN of L9",
           [](const Printer& p) { return std::string_view{p.config().identity.device_name}; }),

@@ -1,5 +1,6 @@
 #include "emulator/behaviour/machine_loader.h"
 
+#include <algorithm>
 #include <array>
 
 #include "emulator/behaviour/nearest.h"
@@ -63,6 +64,18 @@ void load_protection(const Json& node, const std::string& pointer, Findings& fin
     reader.finish();
 }
 
+/// A heater must be able to reach its highest target, and to swing over it, without being called too hot.
+void check_too_hot(ObjectReader& reader, Findings& findings, printer::HeaterConfig& out) {
+    constexpr double swing_k = 15;
+    const Json* protection = reader.get("protection");
+    if (protection == nullptr || !protection->is_object() || !protection->contains("max_c")) {
+        out.protection.max_c = std::max(out.protection.max_c, out.max_target_c + swing_k);
+    } else if (out.protection.max_c <= out.max_target_c) {
+        findings.add(reader.pointer("protection") + "/max_c",
+                     "a heater is too hot above this; expected more than its max_target_c");
+    }
+}
+
 void load_heater(const Json& node, const std::string& pointer, Findings& findings,
                  printer::HeaterConfig& out) {
     ObjectReader reader(node, pointer, findings);
@@ -77,6 +90,7 @@ void load_heater(const Json& node, const std::string& pointer, Findings& finding
     }
     reader.number("max_target_c", out.max_target_c, 0, 1000);
     reader.number("done_within_c", out.done_within_c, 0, 100);
+    check_too_hot(reader, findings, out);
     reader.finish();
 }
 

@@ -272,6 +272,9 @@ void Board::run_events() {
         if (!event) {
             return;
         }
+        if (options_.observer != nullptr) {
+            options_.observer->on_event(time_, *event);
+        }
         const std::vector<Rule>& rules = profile_->events[static_cast<std::size_t>(*event)];
         if (!rules.empty()) {
             run_rules(rules, nullptr);

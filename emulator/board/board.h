@@ -39,6 +39,9 @@ class Observer {
     virtual void on_sent(SimTime now, Channel channel, std::string_view line) = 0;
     /// Something a person wants to know: a clamped value, an unknown code, a lost message.
     virtual void on_notice(SimTime now, Level level, std::string_view text) = 0;
+    /// Something happened to the machine (see printer::events()); told before the profile's rules for it are
+    /// carried out.
+    virtual void on_event(SimTime /*now*/, printer::EventId /*event*/) {}
 };
 
 struct Options {

@@ -57,6 +57,7 @@ class SpecReader {
     std::vector<std::string> problems_;
 };
 
+/// Those of both, for what is like a wrong name.
 std::vector<std::string_view> kind_names() {
     std::vector<std::string_view> names;
     for (const auto all : {kinds(), printer_kinds()}) {
@@ -67,11 +68,20 @@ std::vector<std::string_view> kind_names() {
     return names;
 }
 
+/// The printer has so many more that they are not all named.
+std::string expected_kind() {
+    std::string out = "expected one of ";
+    for (const Kind* kind : kinds()) {
+        out.append(kind->name).append(", ");
+    }
+    return out + "or a fault of the printer (see `describe faults`)";
+}
+
 void SpecReader::kind(std::string_view name) {
     spec_.kind = find_kind(name);
     if (spec_.kind == nullptr) {
         const auto names = kind_names();
-        complain(fmt::format("unknown kind {}; expected one of {}{}", in_quotes(name), fmt::join(names, ", "),
+        complain(fmt::format("unknown kind {}; {}{}", in_quotes(name), expected_kind(),
                              did_you_mean(name, names)));
         return;
     }
@@ -81,7 +91,7 @@ void SpecReader::kind(std::string_view name) {
 }
 
 void SpecReader::missing_kind() {
-    complain(fmt::format("found no kind; expected one of {}", fmt::join(kind_names(), ", ")));
+    complain("found no kind; " + expected_kind());
 }
 
 void SpecReader::unknown(std::string_view name) {

@@ -190,6 +190,10 @@ std::unique_ptr<Clock> make_clock(asio::io_context& context, Speed speed) {
     return std::make_unique<RealClock>(context, speed.factor);
 }
 
+SimTime real_time() {
+    return std::chrono::duration_cast<SimTime>(std::chrono::steady_clock::now().time_since_epoch());
+}
+
 SimTime time_since_epoch() {
     return std::chrono::duration_cast<SimTime>(std::chrono::system_clock::now().time_since_epoch());
 }

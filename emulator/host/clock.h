@@ -91,6 +91,9 @@ class Clock {
 /// loop's descriptors now and then. `context` outlives it.
 std::unique_ptr<Clock> make_clock(asio::io_context& context, Speed speed);
 
+/// Real time, from some moment on: for limits in real time, never for the board.
+SimTime real_time();
+
 /// What the calendar says, as time since 1970 (UTC): for files that other programs read, never for the board.
 SimTime time_since_epoch();
 

@@ -35,6 +35,10 @@ class Observers final : public LiveObserver {
         for (LiveObserver* each : all_)
             each->on_notice(now, level, text);
     }
+    void on_event(SimTime now, printer::EventId event) override {
+        for (LiveObserver* each : all_)
+            each->on_event(now, event);
+    }
     void on_link(SimTime now, link::LinkState state, std::string_view why) override {
         for (LiveObserver* each : all_)
             each->on_link(now, state, why);

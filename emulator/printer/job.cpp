@@ -53,6 +53,17 @@ bool Job::resume(SimTime now) {
     return true;
 }
 
+void Job::recover(std::uint64_t byte, SimTime elapsed) {
+    status_ = JobStatus::recovery;
+    byte_ = byte;
+    before_ = elapsed;
+}
+
+void Job::go_on(SimTime now) {
+    status_ = JobStatus::printing;
+    since_ = now;
+}
+
 bool Job::close() {
     if (status_ != JobStatus::finished) {
         return false;

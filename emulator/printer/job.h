@@ -24,6 +24,9 @@ class Job {
     bool begin_pause();
     void pause(SimTime now);
     bool resume(SimTime now);
+    /// The selected file is taken up at `byte` again, after a power loss; go_on() then prints.
+    void recover(std::uint64_t byte, SimTime elapsed);
+    void go_on(SimTime now);
     /// False when there is no job.
     bool stop();
     bool finish(SimTime now);
@@ -31,7 +34,11 @@ class Job {
     bool close();
 
     JobStatus status() const { return status_; }
-    bool active() const { return status_ == JobStatus::printing || status_ == JobStatus::paused; }
+    /// Printing, paused, or being taken up after a power loss.
+    bool active() const {
+        return status_ == JobStatus::printing || status_ == JobStatus::paused ||
+               status_ == JobStatus::recovery;
+    }
     bool pausing() const { return pausing_; }
     int volume() const { return volume_; }
     /// Path on its disk; empty in L3 unless a job is under way or has just finished.

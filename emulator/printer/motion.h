@@ -72,6 +72,7 @@ class Motion {
     /// M82, M83: E alone; G91 makes it relative as well.
     void set_relative_e(bool relative) { relative_e_ = relative; }
     bool relative_e() const { return relative_ || relative_e_; }
+    bool relative_e_alone() const { return relative_e_; }
     void set_position(const AxisTargets& values);  // G92
     void set_motors(bool on);
     bool motors() const { return motors_ && !faults_.dead_motors; }
@@ -82,6 +83,8 @@ class Motion {
     bool busy() const { return count_ != 0 || !planner_.empty(); }
     /// End of everything asked for, mm.
     const AxisValues& planned() const { return planned_; }
+    /// Where the move under way began, or where the head stands, mm.
+    const AxisValues& executed() const { return executed_; }
     /// Destination of the last accepted move, mm.
     double position(Axis axis) const { return accepted_[static_cast<std::size_t>(axis)]; }
     /// Feed of the move being executed, mm/s; keeps its last value when idle.

@@ -18,12 +18,14 @@ Printer::Printer(std::shared_ptr<const MachineConfig> config, Services services,
       feeder(config->filament),
       runner(*this),
       host(*this),
+      recovery(*this),
       config_(std::move(config)),
       services_(services),
       random_state_(seed ^ 0x9E3779B97F4A7C15ULL) {
     if (services_.sd == nullptr && config_->card.present) {
         built_in_.emplace(config_->card.entries);
     }
+    recovery.load(services_.job_place);
     storage.configure(config_->card.way_back, config_->card.ignore_case);
     if (config_->resin) {
         resin = std::make_unique<Resin>(*this);
@@ -53,6 +55,7 @@ void Printer::power_on(SimTime now) {
     runner.power_on();
     modal = {};
     host.power_on();
+    recovery.power_on();
     screen = ScreenSide{};
     wifi = Wifi{};
     steppers = Steppers{};
@@ -87,7 +90,9 @@ void Printer::advance(SimTime now) {
         }
         resin ? resin->advance(next) : runner.advance(next);
         host.advance(next);
+        recovery.advance(next);
         motion.start_stream(next);
+        recovery.keep();
         follow_filament();
         if (was_moving) {
             emit_after_motion();
@@ -95,6 +100,7 @@ void Printer::advance(SimTime now) {
     }
     thermal.advance(now);
     now_ = now;
+    breakdowns.advance(now);  // what somebody has seen to is over
 }
 
 SimTime Printer::next_event() const {
@@ -102,8 +108,9 @@ SimTime Printer::next_event() const {
         return breakdowns.next_event();
     }
     return std::min({motion.next_event(), feeder.next_event(), wait.next_event(),
-                     (resin ? resin->next_event() : runner.next_event()), host.next_event(), card_check_,
-                     thermal.next_alarm_check(), breakdowns.next_event()});
+                     (resin ? resin->next_event() : runner.next_event()), host.next_event(),
+                     recovery.next_event(), card_check_, thermal.next_alarm_check(),
+                     breakdowns.next_event()});
 }
 
 bool Printer::restless() const {
@@ -254,11 +261,6 @@ bool Printer::resume_job() {
 }
 
 bool Printer::start_or_resume_job() {
-    if (job.waits_for_user && !job.active()) {  // an M0 of the USB side
-        job.waits_for_user = false;
-        events.raise(EventId::job_resumed);
-        return true;
-    }
     if (resume_job()) {
         return true;
     }
@@ -311,6 +313,8 @@ bool Printer::stop_job() {
         return false;
     }
     runner.stop();
+    recovery.abort();
+    recovery.drop();
     if (resin) {
         resin->job.stop(now_);
     }
@@ -331,8 +335,15 @@ bool Printer::finish_job() {
         return close_job();  // such a board shows no finished print: it is idle at once
     }
     runner.finished(now_);
+    recovery.drop();
     events.raise(EventId::job_finished);
     return true;
+}
+
+void Printer::continue_recovered_job() {
+    job.go_on(now_);
+    runner.start(now_);
+    events.raise(EventId::job_started);
 }
 
 bool Printer::close_job() {
@@ -345,7 +356,10 @@ bool Printer::close_job() {
 }
 
 void Printer::emergency_stop() {
-    job.stop();
+    if (job.stop()) {
+        recovery.abort();
+        recovery.drop();
+    }
     runner.stop();
     if (resin) {
         resin->job.halt(now_);

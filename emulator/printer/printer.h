@@ -18,6 +18,7 @@
 #include "emulator/printer/machine_config.h"
 #include "emulator/printer/mixer.h"
 #include "emulator/printer/motion.h"
+#include "emulator/printer/recovery.h"
 #include "emulator/printer/resin.h"
 #include "emulator/printer/sim_time.h"
 #include "emulator/printer/state.h"
@@ -43,6 +44,7 @@ struct Services {
     Volume* sd = nullptr;
     Volume* udisk = nullptr;
     EepromStore* eeprom = nullptr;
+    JobPlaceStore* job_place = nullptr;
 };
 
 /// The machine behind the board: parts, their state, and the time they share. Knows no messages and does no
@@ -95,6 +97,8 @@ class Printer {
     void seek_job(double byte);
     bool stop_job();
     bool finish_job();
+    /// The job that Recovery has made ready prints.
+    void continue_recovered_job();
     /// A finished job is no longer shown. False when there is none.
     bool close_job();
     /// M112: job, heaters and motors off at once.
@@ -146,7 +150,7 @@ class Printer {
     ScreenSide screen;
     Wifi wifi;
     Steppers steppers;
-    PowerLoss power_loss;
+    Recovery recovery;
     EventQueue events;
     std::unique_ptr<Resin> resin;  ///< null on boards of other printers
     FilamentPath filament_path;

@@ -94,8 +94,4 @@ struct Steppers {
     std::array<StepperDriver, 4> drivers{};
 };
 
-struct PowerLoss {
-    bool saved_job = false;
-};
-
 }  // namespace fauxboard::printer

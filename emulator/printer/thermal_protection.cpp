@@ -1,6 +1,12 @@
 #include "emulator/printer/thermal_protection.h"
 
 namespace fauxboard::printer {
+namespace {
+
+/// What was too hot is no longer when it reads so much less. More than what folded readings jump by.
+constexpr double settled_k = 5;
+
+}  // namespace
 
 bool ThermalProtection::check(SimTime now, double target_c, double reading_c) {
     if (target_c != target_c_) {
@@ -17,7 +23,7 @@ bool ThermalProtection::check(SimTime now, double target_c, double reading_c) {
     } else if (target_c != 0) {
         found = reading_c < config_->min_c ? ThermalAlarm::too_cold : watch(now, target_c, reading_c);
     }
-    told_hot_ = hot;
+    told_hot_ = hot || (told_hot_ && reading_c > config_->max_c - settled_k);
     if (found != ThermalAlarm::none) {
         alarm_ = found;
     }

@@ -17,7 +17,8 @@ class ThermalProtection {
     explicit ThermalProtection(const ProtectionConfig& config) : config_(&config) {}
 
     /// To be called at each measurement with the target, 0 for off, and with what the board reads. True when
-    /// something is newly found wrong. Too hot is told once until it reads less again or is to be heated.
+    /// something is newly found wrong. Too hot is told once, until it reads clearly less again or is to be
+    /// heated.
     bool check(SimTime now, double target_c, double reading_c);
     /// What was found wrong last, until it is heated anew.
     ThermalAlarm alarm() const { return alarm_; }

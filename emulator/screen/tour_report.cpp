@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "emulator/behaviour/document.h"
+#include "emulator/behaviour/junit.h"
 #include "emulator/screen/screen_json.h"
 
 namespace fauxboard::screen {
@@ -28,30 +29,6 @@ std::string joined(const std::vector<std::string>& lines, std::size_t most) {
         const bool starts = (static_cast<unsigned char>(out[i]) & 0xC0U) != 0x80U;
         if (starts && ++columns > most) {
             return out.substr(0, i) + "...";
-        }
-    }
-    return out;
-}
-
-/// Text for an attribute or an element. printable() has left no control byte in it.
-std::string xml(std::string_view text) {
-    std::string out;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
-            default:
-                out += static_cast<unsigned char>(c) < 0x20 && c != '\n' ? ' ' : c;
         }
     }
     return out;
@@ -110,27 +87,21 @@ std::string tour_json(std::string_view screen, std::span<const TourResult> resul
 }
 
 std::string tour_junit(std::string_view screen, std::span<const TourResult> results) {
-    double total = 0;
+    std::vector<behaviour::JUnitCase> cases;
     for (const TourResult& result : results) {
-        total += printer::to_seconds(result.took);
-    }
-    const std::size_t failed = results.size() - count(results, TourVerdict::met);
-    std::string out = fmt::format(
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n"
-        "<testsuite name=\"tour of {}\" tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"0\" "
-        "time=\"{:.3f}\">\n",
-        xml(screen), results.size(), failed, total);
-    for (const TourResult& result : results) {
-        out += fmt::format("  <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\">",
-                           xml(class_name(screen, result.button)), xml(result.button),
-                           printer::to_seconds(result.took));
+        behaviour::JUnitCase one{class_name(screen, result.button),
+                                 result.button,
+                                 printer::to_seconds(result.took),
+                                 "",
+                                 "",
+                                 false};
         if (result.verdict != TourVerdict::met) {
-            out += fmt::format("\n    <failure type=\"{}\" message=\"{}\"/>\n  ",
-                               tour_verdict_words(result.verdict), xml(result.sentence));
+            one.failure = tour_verdict_words(result.verdict);
+            one.message = result.sentence;
         }
-        out += "</testcase>\n";
+        cases.push_back(std::move(one));
     }
-    return out + "</testsuite>\n</testsuites>\n";
+    return behaviour::junit_text(fmt::format("tour of {}", screen), cases);
 }
 
 std::string findings_text(std::span<const Finding> findings) {

@@ -160,6 +160,27 @@ const std::vector<ActionRow>& device_action_rows() {
              b.run(R"({"job.seek": {"byte": 2}})");
              CHECK(b.number("job.byte") == 2);
          }},
+        {"job.recover",
+         [](Bench& b) {
+             b.run(R"("job.recover")");
+             CHECK(b.number("job.status") == 0);  // nothing was cut off
+             b.print();
+             b.pass(0.1);
+             b.machine.power_on(b.now);
+             CHECK(b.number("power_loss.saved_job") == 1);
+             b.run(R"("job.recover")");
+             CHECK(b.number("job.status") == 3);
+         }},
+        {"job.forget",
+         [](Bench& b) {
+             b.print();
+             b.pass(0.1);
+             b.run(R"("job.forget")");  // not the one under way
+             b.machine.power_on(b.now);
+             CHECK(b.number("power_loss.saved_job") == 1);
+             b.run(R"("job.forget")");
+             CHECK(b.number("power_loss.saved_job") == 0);
+         }},
         {"eeprom.save",
          [](Bench& b) {
              b.run(R"([{"set": {"settings.steps.x": 99}}, {"eeprom.save": {"fields": "settings."}}])");

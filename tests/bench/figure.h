@@ -34,6 +34,7 @@ struct Benchmark {
 };
 
 std::vector<Benchmark> in_process_benchmarks();
+std::vector<Benchmark> print_benchmarks();
 std::vector<Benchmark> pty_benchmarks();
 std::vector<Benchmark> tap_benchmarks();
 

@@ -103,14 +103,20 @@ TEST_CASE("boot: a missing card is told between the first temperatures and the f
 }
 
 TEST_CASE("boot: a job that a power loss cut off is offered at the end of the burst") {
-    struct Saved final : printer::EepromStore {
-        std::optional<std::string> load() override { return "power_loss.saved_job 1\n"; }
-        bool save(std::string_view) override { return true; }
-    } eeprom;
+    struct Saved final : printer::JobPlaceStore {
+        std::optional<printer::JobPlace> load() override {
+            printer::JobPlace place;
+            place.path = "testpattern.gcode";
+            place.bytes = 109;
+            return place;
+        }
+        void keep(const printer::JobPlace&) override {}
+        void drop() override {}
+    } store;
     for (const char* profile : {"geeetech-a30t", "geeetech-a30"}) {
         CAPTURE(profile);
         BoardDriver::Setup setup;
-        setup.services.eeprom = &eeprom;
+        setup.services.job_place = &store;
         BoardDriver driver(profile, setup);
         driver.run_until(0.8);
         CHECK(driver.lines().back().body == "L16 P0 15");

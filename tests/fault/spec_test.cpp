@@ -5,8 +5,10 @@
 #include <utility>
 
 #include "emulator/fault/kind.h"
+#include "emulator/fault/printer_fault.h"
 #include "tests/fault/helpers.h"
 
+using namespace fauxboard;
 using namespace fauxboard::fault;
 
 namespace {
@@ -68,10 +70,14 @@ TEST_CASE("fifteen wrong specs, fifteen sentences") {
         {"garbel:to_screen",
          "fault \"garbel:to_screen\": unknown kind \"garbel\"; expected one of drop, garble, duplicate, "
          "delay, slow, "
-         "cut, merge, nul_burst, stray_ok, wrong_checksum, silence, disconnect; did you mean \"garble\"?"},
+         "cut, merge, nul_burst, stray_ok, wrong_checksum, silence, disconnect, or a fault of the printer "
+         "(see "
+         "`describe "
+         "faults`); did you mean \"garble\"?"},
         {"",
          "fault: found no kind; expected one of drop, garble, duplicate, delay, slow, cut, merge, nul_burst, "
-         "stray_ok, wrong_checksum, silence, disconnect"},
+         "stray_ok, "
+         "wrong_checksum, silence, disconnect, or a fault of the printer (see `describe faults`)"},
         {"garble:bit=1",
          "fault \"garble:bit=1\": unknown attribute \"bit\"; garble takes bits, bytes, direction, "
          "probability, every, "
@@ -178,6 +184,64 @@ TEST_CASE("every attribute of every kind survives both forms, at both bounds and
             }
         }
     }
+}
+
+TEST_CASE("faults of the printer are spelled alike: both forms, at both bounds and at the default") {
+    CHECK(printer_kinds().size() == printer::breakdown_count);
+    for (const Kind* kind : printer_kinds()) {
+        const std::string name(kind->name);
+        CAPTURE(name);
+        CHECK(find_kind(name) == kind);
+        CHECK(kind->printer != nullptr);
+        CHECK(kind->help.size() > 20);
+        std::vector<Attribute> all(kind->attributes.begin(), kind->attributes.end());
+        for (const CommonAttribute& common : common_attributes()) {
+            if (takes_common(*kind, common.name)) {
+                all.push_back(common);
+            }
+        }
+        CHECK(all.size() == kind->attributes.size() + 4);
+        for (const Attribute& attribute : all) {
+            CHECK(attribute.min < attribute.max);
+            CHECK(attribute.min <= attribute.fallback.value_or(attribute.min));
+            CHECK(attribute.max >= attribute.fallback.value_or(attribute.max));
+            for (const double value : {attribute.min, attribute.max}) {
+                const FaultSpec spec = fault_from_text(name + ":" + std::string(attribute.name) + "=" +
+                                                       attribute_text(attribute, value));
+                CHECK(fault_from_text(fault_to_text(spec)) == spec);
+                CHECK(fault_from_json(fault_to_json(spec)) == spec);
+            }
+        }
+    }
+    const printer::BreakdownRequest request =
+        to_request(fault_from_text("too_hot:heater=bed,power=40,at=60s,for=1min"));
+    CHECK(request.info->id == printer::BreakdownId::too_hot);
+    CHECK(request.values == printer::BreakdownValues{1, 40});
+    CHECK(request.begin == ms(60'000));
+    CHECK(request.length == ms(60'000));
+    CHECK_FALSE(request.end);
+    CHECK(fault_from_text("cold_extrusion:below=250C").values.number(0) == 250);
+}
+
+TEST_CASE("wrong faults of the printer: sentences that say what to do, and no line takes one") {
+    const auto has = [](std::string_view text, std::string_view part) {
+        return text_error(text).find(part) != std::string::npos;
+    };
+    CHECK(has("jamm", "did you mean \"jam\"?"));
+    CHECK(has("filament-out", "did you mean \"filament_out\"?"));
+    CHECK(has("jam:probability=0.5",
+              "unknown attribute \"probability\"; jam takes lost, from, until, for, at"));
+    CHECK(has("jam:to_screen", "found \"to_screen\"; expected name=value"));
+    CHECK(has("jam:lost=101", "expected a number from 1 to 100"));
+    CHECK(has("heater_dead:heater=bedd", "did you mean \"bed\"?"));
+    CHECK(has("pid_question:target=200", "a temperature from 30C to 300C, such as \"200C\""));
+    CHECK(has("jam:at=60", "with its unit"));
+    CHECK(has("jam:at=60s,from=50s", "found at and from together"));
+    CHECK(has("jam:until=60s,for=50s", "found until and for together"));
+    CHECK(has("jam:at=60s,until=50s", "expected a time after at, 60s"));
+    Faults line;
+    CHECK_THROWS_AS(line.add(ms(0), fault_from_text("jam")), FaultSpecError);
+    CHECK(line.empty());
 }
 
 TEST_CASE("the reference names every kind and attribute") {

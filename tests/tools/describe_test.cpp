@@ -33,7 +33,7 @@ TEST_CASE("describe: all rows are there, each with its words") {
     CHECK(reference["codes"].size() == protocol::catalogue().size());
     const std::string text = tools::reference_text(tools::reference_parts);
     for (const auto& [part, rows] : reference.items()) {
-        if (part == "control" || part == "faults") {
+        if (part == "control" || part == "faults" || part == "scenarios") {
             continue;  // below
         }
         for (const auto& row : rows) {
@@ -82,6 +82,17 @@ TEST_CASE("describe: every kind of fault and every attribute is there, for peopl
     }
     for (const fault::CommonAttribute& attribute : fault::common_attributes()) {
         check_attribute(attribute);
+    }
+    CHECK(faults["printer"]["kinds"].size() == printer::breakdowns().size());
+    for (const fault::Kind* kind : fault::printer_kinds()) {
+        CAPTURE(kind->name);
+        CHECK(text.find("\n  " + std::string(kind->name) + " ") != std::string::npos);
+        CHECK(text.find(kind->help) != std::string::npos);
+        CHECK(page.find("**`" + std::string(kind->name) + "`** " + std::string(kind->help)) !=
+              std::string::npos);
+        for (const fault::Attribute& attribute : kind->attributes) {
+            check_attribute(attribute);
+        }
     }
 }
 

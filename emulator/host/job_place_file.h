@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "emulator/link/unique_fd.h"
+#include "emulator/printer/job_place.h"
+
+namespace fauxboard::host {
+
+/// Keeps the place of a job in a small file of two slots, written in turn: whenever the program is killed,
+/// the slot not being written is whole. A keep() is one write() of some 300 bytes into the page cache, so a
+/// kill of the program loses nothing; what a power cut of this computer leaves is up to its file system.
+class JobPlaceFile final : public printer::JobPlaceStore {
+  public:
+    using OnTrouble = std::function<void(std::string_view sentence)>;
+
+    /// `file` need not exist. Throws HostError when it cannot be opened for writing, or is no plain file.
+    JobPlaceFile(std::string file, OnTrouble on_trouble);
+
+    std::optional<printer::JobPlace> load() override;
+    void keep(const printer::JobPlace& place) override;
+    void drop() override;
+
+    const std::string& file() const { return file_; }
+
+    static constexpr std::size_t slot_bytes = 1024;
+
+  private:
+    void write(std::string_view payload);
+
+    std::string file_;
+    OnTrouble on_trouble_;
+    link::UniqueFd fd_;
+    std::uint64_t sequence_ = 0;  ///< of the slot written last
+    bool complained_ = false;
+};
+
+}  // namespace fauxboard::host

@@ -1,0 +1,82 @@
+#include "emulator/host/script_files.h"
+
+#include <algorithm>
+
+#include "emulator/behaviour/nearest.h"
+#include "emulator/host/profile_files.h"
+#include "emulator/host/screen_files.h"
+
+namespace fauxboard::host {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view default_profile = "geeetech-a30t";
+
+bool is_path(std::string_view name) {
+    return name.find('/') != std::string_view::npos || name.ends_with(".json");
+}
+
+std::optional<behaviour::SourceText> find(std::string_view name, std::string_view from) {
+    if (is_path(name)) {
+        return profile_finder()(name, from);
+    }
+    const std::string file = std::string(name) + ".json";
+    if (!from.empty()) {
+        if (auto found = profile_finder()((fs::path(from).parent_path() / file).string(), {})) {
+            return found;
+        }
+    }
+    for (const fs::path& folder : profile_folders()) {
+        if (auto found = profile_finder()((folder / "scenarios" / file).string(), {})) {
+            return found;
+        }
+    }
+    return std::nullopt;
+}
+
+std::vector<ProfileEntry> list_scripts() {
+    std::vector<fs::path> folders = profile_folders();
+    std::transform(folders.begin(), folders.end(), folders.begin(),
+                   [](const fs::path& folder) { return folder / "scenarios"; });
+    return list_profiles(folders);
+}
+
+}  // namespace
+
+behaviour::SourceFinder script_finder() {
+    return find;
+}
+
+behaviour::SourceText find_script(std::string_view name) {
+    if (auto found = find(name, {})) {
+        return *std::move(found);
+    }
+    behaviour::Problem problem;
+    problem.file = std::string(name);
+    const std::vector<ProfileEntry> entries = list_scripts();
+    std::vector<std::string_view> names;
+    if (is_path(name)) {
+        problem.message = "no such file, or it cannot be read, or it is larger than 4 MiB";
+    } else {
+        problem.message = "there is no scenario of this name; known:";
+        for (const ProfileEntry& entry : entries) {
+            names.emplace_back(entry.name);
+            problem.message += ' ' + entry.name;
+        }
+        problem.nearest = std::string(behaviour::nearest(name, names));
+    }
+    throw behaviour::ProfileError({problem});
+}
+
+std::shared_ptr<const script::Scenario> check_script(const behaviour::SourceText& source) {
+    const script::Head head = script::read_head(source);
+    script::Cast cast;
+    cast.profile = load_profile_by_name(head.profile.empty() ? default_profile : head.profile);
+    if (!head.screen.empty()) {
+        cast.screen = load_screen_by_name(head.screen);
+    }
+    return script::load_scenario(source, script_finder(), cast);
+}
+
+}  // namespace fauxboard::host
