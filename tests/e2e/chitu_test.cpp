@@ -116,5 +116,47 @@ TEST_CASE("so are those that other ChiTu boards answer otherwise") {
     CHECK(check_file("chitu-saturn") > 3);
 }
 
+TEST_CASE("a ChiTu board is checked, reached into, recorded, explained and replayed like any other") {
+    for (const char* profile :
+         {"chitu-base", "elegoo-mars-pro", "elegoo-saturn", "anycubic-photon", "chitu-4.4.3"}) {
+        CAPTURE(profile);
+        CHECK(run({"check", profile}).code == 0);
+    }
+    TemporaryFolder folder;
+    const std::string control = folder.file("control");
+    const std::string record = folder.file("talk.jsonl");
+    Program program({"run", "-q", "--profile", "elegoo-mars-pro", "--control", control, "--record", record});
+    RawPeer peer(program.ready()["path"]);
+    const auto ask = [&](const std::string& line) {
+        peer.say(line + "\r\n" + last_question);
+        return peer.until(last_answer);
+    };
+    ask("M4002");
+    CHECK(run({"ctl", control, "do", "resin.fan", R"({"value": 100})"}).code == 0);
+    CHECK(contains(ask("M4000"), " F:100/0 "));
+    CHECK(contains(run({"ctl", control, "get", "resin.led_fan"}).out, "100"));
+    CHECK(run({"ctl", control, "set", "config.max_height=9999"}).code != 0);
+    CHECK(run({"ctl", control, "world", "card out"}).code == 0);
+    CHECK(ask("M23 a.ctb") == "//Disk init fail!\r\nok N:0\r\n");
+    CHECK(run({"ctl", control, "send", "position"}).code == 0);
+    CHECK(contains(peer.until("E:0.000000\r\n"), "ok C: X:0.000000"));
+    CHECK(run({"ctl", control, "fault", "add", "stray_ok:to_screen,number=80"}).code == 0);
+    peer.say("M4004\r\n");
+    CHECK(peer.until("ok C:0\r\n") == "ok N:80\r\n");
+    CHECK(program.stop() == 0);
+
+    const std::string words = run({"decode", record}).out;
+    for (const char* word : {"power-on", "version query", "acknowledged: \"V4.3.3_LCDC\"", "no stick",
+                             "select file", "status query"}) {
+        CAPTURE(word);
+        CHECK(contains(words, word));
+    }
+    CHECK_FALSE(contains(words, "unknown"));
+    const Result replayed = run({"replay", "--profile", "elegoo-mars-pro", record});
+    CHECK(replayed.code == 0);
+    CHECK(contains(replayed.out, "ok V4.3.3_LCDC"));
+    CHECK(contains(replayed.out, "//Disk init fail!"));
+}
+
 }  // namespace
 }  // namespace fauxboard::e2e
