@@ -59,8 +59,6 @@ constexpr std::array table{
         "closes what is open (M22); of an upload nothing remains",
         {},
         [](ActionContext& c, Args) { c.printer.transfer.close(c.printer.now(), c.printer.transfer.asker); }},
-    ActionInfo{"transfer.remove", "", "removes a file of the disk (M30)", name_args,
-               [](ActionContext& c, Args a) { c.printer.transfer.remove(words(a[0])); }},
 };
 
 }  // namespace

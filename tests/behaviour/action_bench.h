@@ -83,5 +83,6 @@ const std::vector<ActionRow>& device_action_rows();
 const std::vector<ActionRow>& fault_action_rows();
 /// Of a resin printer.
 const std::vector<ActionRow>& resin_action_rows();
+const std::vector<ActionRow>& transfer_action_rows();
 
 }  // namespace fauxboard::testing
