@@ -779,7 +779,9 @@ local function filter_name(who, code, field)
     local last = slug(field.key)
     if last == "" then last = slug(field.name) end
     if last == "" then last = "value" end
-    return "fauxboard." .. who .. "." .. slug(code.code) .. "." .. last
+    local name = slug(code.code)
+    if name == "" then name = slug(code.title) end  -- a line that begins with "//"
+    return "fauxboard." .. who .. "." .. name .. "." .. last
 end
 
 local all = {}

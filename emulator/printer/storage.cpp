@@ -245,7 +245,7 @@ bool Storage::path_for_writing(std::string_view name, std::string& path) const {
 
 bool Storage::write(std::string_view name, std::string_view bytes) {
     std::string path;
-    Volume* const disk = volume(chosen_);
+    Volume* const disk = writable(chosen_);
     if (disk == nullptr || !path_for_writing(name, path)) {
         return false;
     }
@@ -255,7 +255,7 @@ bool Storage::write(std::string_view name, std::string_view bytes) {
 
 bool Storage::remove(std::string_view name) {
     const Found found = find(name);
-    Volume* const disk = volume(chosen_);
+    Volume* const disk = writable(chosen_);
     return found.kind == Volume::Kind::file && disk != nullptr && disk->remove(found.path);
 }
 

@@ -112,7 +112,9 @@ class Storage {
     void set_file_trouble(Volume::Kind kind) { file_trouble_ = kind; }
 
     /// The same, to write to.
-    Volume* volume(int disk) { return usable(disk) ? volumes_[index(disk)] : nullptr; }
+    Volume* writable(int disk) {
+        return usable(disk) && file_trouble_ == Volume::Kind::file ? volumes_[index(disk)] : nullptr;
+    }
 
     /// Writes a whole file of the chosen disk, beside and then under its name, so that half a one never
     /// stands there. False when that cannot be.

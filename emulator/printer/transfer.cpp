@@ -28,7 +28,7 @@ void Transfer::power_on() {
 }
 
 void Transfer::drop() {
-    if (Volume* const disk = storage_.volume(disk_); mode_ == Mode::upload && disk != nullptr) {
+    if (Volume* const disk = storage_.writable(disk_); mode_ == Mode::upload && disk != nullptr) {
         disk->remove(beside());
     }
     mode_ = Mode::none;
@@ -64,7 +64,7 @@ bool Transfer::upload(SimTime now, Peer peer, std::string_view name) {
     }
     disk_ = storage_.chosen();
     name_ = name;
-    Volume* const disk = storage_.volume(disk_);
+    Volume* const disk = storage_.writable(disk_);
     if (disk == nullptr) {
         return say(Outcome::no_disk);
     }
@@ -90,7 +90,7 @@ bool Transfer::piece(SimTime now, Peer peer, bool intact, std::uint64_t offset, 
     if (!intact || offset != position_) {
         return say(Outcome::resend);
     }
-    Volume* const disk = storage_.volume(disk_);
+    Volume* const disk = storage_.writable(disk_);
     if (disk == nullptr || bytes.size() > max_bytes - position_ ||
         !disk->append(beside(), position_, bytes)) {
         return say(Outcome::write_failed);
@@ -103,7 +103,7 @@ bool Transfer::finish(SimTime now, Peer peer) {
     if (!may_go_on(now, peer, Mode::upload)) {
         return false;
     }
-    Volume* const disk = storage_.volume(disk_);
+    Volume* const disk = storage_.writable(disk_);
     if (disk == nullptr || !disk->rename(beside(), path_)) {
         drop();
         return say(Outcome::write_failed);

@@ -31,7 +31,10 @@ TEST_CASE("get: fields, groups, variables, all of them, with their types") {
                           : field.type == behaviour::FieldType::boolean
                               ? value.is_boolean()
                               : value.is_number() || value.is_null();
-        CHECK(fits);
+        // A part that this machine has not has no values.
+        const bool absent =
+            value.is_null() && (field.path.starts_with("resin.") || field.path.starts_with("config."));
+        CHECK((fits || absent));
     }
 }
 

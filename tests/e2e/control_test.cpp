@@ -120,7 +120,7 @@ TEST_CASE("each no has its exit code and its sentence") {
         {{"world", "filament", "inn"}, failed, "Did you mean \"filament in\"?"},
         {{"send", "L2x"}, failed, "no frame \"L2x\""},
         {{"advance", "5parsec"}, failed, "200ms"},
-        {{"fault", "remove", "x"}, usage, "no fault's id"},
+        {{"fault", "remove", "x"}, failed, "There is no fault \"x\""},
         {{"fault"}, usage, "subcommand"},
         {{"watch", "heaters.nozle"}, failed, "no field"},
         {{"frobnicate"}, usage, "subcommand is required"},

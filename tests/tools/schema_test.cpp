@@ -60,7 +60,9 @@ json everything() {
                     "plant": { "heating_k_per_s": 1, "exchange_a_per_s": 0, "exchange_b_per_s": 0, "loss_on_per_s": 0, "loss_off_per_s": 0,
                                "sensor_lag_s": 1, "dead_time_s": 1, "ambient_c": 20, "counts_per_c": 4, "first_reading_offset_c": 0 },
                     "pid": { "kp": 1, "ki": 1, "kd": 1, "k1": 0.5, "range_c": 5, "off_below_c": 5, "max_output": 255 },
-                    "max_target_c": 260, "done_within_c": 2 },
+                    "max_target_c": 260, "done_within_c": 2,
+                    "protection": { "min_c": 5, "max_c": 300, "open_reads_c": -15, "shorted_reads_c": 400, "watch_s": 20, "watch_rise_c": 2,
+                                    "runaway_s": 40, "runaway_c": 4 } },
                 "bed": { "max_target_c": 90 },
                 "t1": { "noise_c": 0, "counts_per_c": 5, "points": [ [0, 0], [100, 50] ] },
                 "t2": { "noise_c": 0 } },
@@ -71,7 +73,8 @@ json everything() {
                 "procedures": { "p": [
                     { "zero": "xy" }, { "home": "z" }, { "to": { "x": 1, "y": 1, "z": 1, "e": 1 }, "feed_mm_s": 5, "seconds": 1 }, { "by": { "x": 1 } },
                     { "probe": "measure" }, { "homed": "xyz" }, { "wait_s": 1 }, { "lose_rounds": 1 }, { "raise": "motion.homed" } ], "park": null } },
-            "filament": { "piece_s": 1, "piece_commit_s": 0.1, "feed_mm_s": 2, "min_extrude_c": 150 },
+            "filament": { "piece_s": 1, "piece_commit_s": 0.1, "feed_mm_s": 2, "min_extrude_c": 150, "detector_mm": 5 },
+            "host": { "busy_s": 2 },
             "resin": { "travel_mm": 100, "power_on_mm": 10, "homing_bounce_mm": 2, "pause_lift_mm": 5, "pause_from_s": 1, "pause_to_s": 2,
                        "stick_visible_s": 1, "stir_cycles": 3,
                        "status": { "temp": 1, "other": 2, "mem": 3, "communication": 4, "indicator": 5, "driver": 6, "printer": 7, "lcd": 8 } },
@@ -89,7 +92,7 @@ json everything() {
             "M9000": { "when": { "S": { "min": 0, "max": 3, "not": 2, "in": [ 0, 1 ], "present": true }, "arg": { "starts_with": "S" }, "FW:": "x", "P?": 1, "var.v": 1 },
                        "do": { "heater.target": { "heater": "bed", "c": "{S|0}" }, "add": { "settings.steps.x": 1 } }, "send": "plain" },
             "hello": [ {}, { "do": "motors.enable" } ], "M105": null },
-        "host_requests": { "M9001": { "send": [ "plain" ] } },
+        "host_requests": { "M9001": { "at_once": true, "send": [ "plain" ] } },
         "events": { "motion.homed": { "do": [ "motors.disable" ], "send": { "frame": "plain" } } }
     })");
 }
