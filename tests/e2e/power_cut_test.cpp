@@ -28,7 +28,7 @@ struct Bench {
     }
     Args arguments() const {
         return {"run",
-                "--pty=" + folder.file("screen"),
+                "--pty",
                 "--sd",
                 folder.file("card"),
                 "--eeprom",
