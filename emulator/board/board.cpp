@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "emulator/behaviour/eeprom.h"
+#include "emulator/board/sizes.h"
 #include "protocol/command.h"
 #include "protocol/host_line.h"
 
@@ -24,19 +25,10 @@ constexpr std::size_t inbox_bytes = 8 * 1024;
 /// Of the USB side: Marlin's queue of four lines of 96 bytes, and the ring of 128 bytes behind its port.
 constexpr std::size_t host_inbox_bytes = 4 * 96 + 128;
 constexpr std::size_t host_inbox_lines = 8;
-/// Longest message: a card listing. Its last lines must always fit, entries before them may be left out.
-constexpr std::size_t scratch_bytes = 8 * 1024;
-constexpr std::size_t closing_room = 256;
-/// A message of one line.
-constexpr std::size_t line_bytes = protocol::max_line_bytes + 16;
 constexpr std::size_t first_output = 2 * line_bytes;
-/// Without pacing, output is made as input comes; beyond this much untaken, requests wait.
-constexpr std::size_t output_limit = 16 * 1024;
 constexpr std::size_t told_limit = 256;
 /// Events that one step may work off: a profile whose events raise each other must come to an end.
 constexpr int event_limit = 256;
-/// A reply to the USB side that begins so is all the acknowledgement its command gets.
-constexpr std::string_view acknowledgement = "ok";
 
 /// A code ("M2134"), not a word ("log"): words are no commands to the board and take no tick. The recorded
 /// one answered an M2134 that came 0.8 ms behind a log line as fast as one that came alone.
@@ -287,109 +279,6 @@ void Board::run_events() {
     }
     machine_.events.clear();
     notice(Level::error, "the profile's events raise each other without end; the rest was dropped");
-}
-
-void Board::send(const Send& entry, const Scope& here) {
-    if (machine_.hung() || !behaviour::all_hold(entry.when, here)) {
-        return;
-    }
-    const Frame& frame = profile_->frames[entry.frame];
-    const Channel to = frame.to.value_or(asker_);
-    if (to == Channel::network ? !network_.asking() : !port(to).connected) {
-        return;
-    }
-    for (unsigned i = 0; i < entry.times; ++i) {
-        const bool at_once = to != Channel::network && (entry.now || !options_.pacing || to != Channel::main);
-        const bool short_one = frame.lines.size() == 1 && !frame.lines[0].for_each_entry;
-        OutputBuffer& output = port(to).output;
-        Draft draft{at_once ? output.room(short_one ? line_bytes : scratch_bytes)
-                            : std::span<char>(scratch_)};
-        compose(frame, here, draft);
-        wheel_.sent(entry.frame, machine_);
-        if (!frame.then.empty()) {
-            ActionContext context{machine_, variables_, *this};
-            for (const behaviour::ActionCall& call : frame.then) {
-                behaviour::run_action(call, here, profile_->variables, context);
-            }
-        }
-        const std::string_view message(draft.room.data(), draft.size);
-        if (to == Channel::network) {
-            network_.add(message, frame.chunk);
-            counters_.lines_sent += draft.lines;
-            if (!frame.chunk) {
-                tell_sent(to, message);
-            }
-        } else if (at_once) {
-            output.grow(draft.size);
-            counters_.lines_sent += draft.lines;
-            if (to == Channel::host && message.starts_with(acknowledgement)) {
-                machine_.host.acknowledge();
-            }
-            tell_sent(to, message);
-        } else if (!outbox_.push(message)) {
-            ++counters_.messages_lost;
-            notice(Level::warning, "message " + frame.name + " lost: the board's transmit queue is full");
-        }
-    }
-}
-
-/// Adds a line to the draft, of which it may use the room up to `end`.
-void Board::compose_line(const Frame& frame, const behaviour::FrameTemplate& text, const Scope& here,
-                         std::size_t end, Draft& draft) {
-    const std::span<char> room = draft.room.subspan(draft.size, end - draft.size);
-    const std::size_t head = std::min(protocol::frame_head(frame.style), room.size());
-    const std::size_t most = std::min(room.size() - head, protocol::max_line_bytes);
-    bool cut = false;
-    const behaviour::Written body = text.render(here, room.subspan(head, most), cut);
-    if (cut && most < protocol::max_line_bytes) {
-        return;  // no room for the line: it is left out
-    }
-    counters_.lines_cut += cut ? 1 : 0;
-    const std::size_t size = protocol::dress_frame(room, body.size, body.sum, frame.style, frame.end);
-    draft.size += size;
-    draft.lines += size != 0 ? 1 : 0;
-}
-
-void Board::compose(const Frame& frame, const Scope& here, Draft& draft) {
-    if (frame.chunk) {
-        const printer::Transfer& transfer = machine_.transfer;
-        const std::string_view block = transfer.last_block.view();
-        draft.size = protocol::write_chunk(
-            draft.room, static_cast<std::uint32_t>(transfer.position() - block.size()), block);
-        draft.lines = 1;
-        return;
-    }
-    const std::size_t end = draft.room.size();
-    for (const Frame::Line& line : frame.lines) {
-        if (!line.for_each_entry) {
-            compose_line(frame, line.text, here, end, draft);
-            continue;
-        }
-        Scope inside = here;
-        for (const printer::CardEntry& entry : machine_.listing()) {
-            inside.entry = &entry;
-            if (behaviour::all_hold(line.when, inside)) {
-                compose_line(frame, line.text, inside, std::max(draft.size, end - closing_room), draft);
-            }
-            ++inside.index;
-        }
-    }
-}
-
-/// A message out of the queue goes on the wire.
-void Board::emit(std::string_view message) {
-    port(Channel::main).output.append(message);
-    counters_.lines_sent += static_cast<std::uint64_t>(std::count(message.begin(), message.end(), '\n'));
-    tell_sent(Channel::main, message);
-}
-
-void Board::tell_sent(Channel channel, std::string_view message) {
-    while (options_.observer != nullptr && !message.empty()) {
-        const std::size_t end = std::min(message.find('\n'), message.size());
-        const std::string_view line = message.substr(0, end);
-        options_.observer->on_sent(time_, channel, line.substr(0, line.find_last_not_of("\r\n") + 1));
-        message.remove_prefix(std::min(end + 1, message.size()));
-    }
 }
 
 SimTime Board::next_tick() const {

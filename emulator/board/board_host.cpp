@@ -3,6 +3,7 @@
 #include <array>
 
 #include "emulator/board/board.h"
+#include "emulator/board/sizes.h"
 #include "protocol/command.h"
 #include "protocol/host_line.h"
 
@@ -11,9 +12,6 @@ namespace {
 
 using printer::EventId;
 using protocol::HostLineFault;
-
-/// Beyond so much untaken, commands wait.
-constexpr std::size_t host_output_limit = 16 * 1024;
 
 EventId event_of(HostLineFault fault) {
     switch (fault) {
@@ -85,7 +83,7 @@ void Board::take_host_line(std::string_view line) {
 /// Ends the command that is over, begins the next that may begin, and so on.
 void Board::run_host() {
     printer::HostCommands& host = machine_.host;
-    while (!machine_.hung() && port(Channel::host).output.size() < host_output_limit) {
+    while (!machine_.hung() && port(Channel::host).output.size() < output_limit) {
         if (host.running()) {
             if (host.under_way()) {
                 return;
