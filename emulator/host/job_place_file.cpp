@@ -54,25 +54,41 @@ std::uint64_t checksum(std::uint64_t sequence, std::string_view bytes) {
     return hash;
 }
 
+/// Calls `pass(member, value)` for each member of a place and where it lies in the file: the one list for
+/// both ways.
+template <class Place, class Kept, class F>
+void each_value(Place& place, Kept& v, F&& pass) {
+    pass(place.bytes, v.bytes);
+    pass(place.byte, v.byte);
+    pass(place.volume, v.volume);
+    pass(place.layer, v.layer);
+    pass(place.layers, v.layers);
+    pass(place.part_fan_percent, v.part_fan_percent);
+    pass(place.speed_percent, v.speed_percent);
+    pass(place.flow_percent, v.flow_percent);
+    pass(place.at, v.at);
+    pass(place.nozzle_c, v.nozzle_c);
+    pass(place.bed_c, v.bed_c);
+    pass(place.modal.unit_mm, v.unit_mm);
+    pass(place.modal.feed_mm_s, v.feed_mm_s);
+    pass(place.modal.weights, v.weights);
+    pass(place.relative, v.relative);
+    pass(place.relative_e, v.relative_e);
+}
+
+template <class T>
+constexpr bool is_flag = std::is_same_v<std::remove_cvref_t<T>, bool>;
+
 Values values_of(const JobPlace& place) {
     Values v{};
-    v.bytes = place.bytes;
-    v.byte = place.byte;
     v.elapsed_us = place.elapsed.count();
-    v.volume = place.volume;
-    v.layer = place.layer;
-    v.layers = place.layers;
-    v.part_fan_percent = place.part_fan_percent;
-    v.speed_percent = place.speed_percent;
-    v.flow_percent = place.flow_percent;
-    v.at = place.at;
-    v.nozzle_c = place.nozzle_c;
-    v.bed_c = place.bed_c;
-    v.unit_mm = place.modal.unit_mm;
-    v.feed_mm_s = place.modal.feed_mm_s;
-    v.weights = place.modal.weights;
-    v.relative = place.relative ? 1 : 0;
-    v.relative_e = place.relative_e ? 1 : 0;
+    each_value(place, v, [](const auto& from, auto& to) {
+        if constexpr (is_flag<decltype(from)>) {
+            to = from ? 1 : 0;
+        } else {
+            to = from;
+        }
+    });
     return v;
 }
 
@@ -97,23 +113,14 @@ std::optional<JobPlace> place_of(std::string_view payload) {
     }
     JobPlace place;
     place.path = payload.substr(sizeof v);
-    place.bytes = v.bytes;
-    place.byte = v.byte;
     place.elapsed = printer::SimTime{v.elapsed_us};
-    place.volume = v.volume;
-    place.layer = v.layer;
-    place.layers = v.layers;
-    place.part_fan_percent = v.part_fan_percent;
-    place.speed_percent = v.speed_percent;
-    place.flow_percent = v.flow_percent;
-    place.at = v.at;
-    place.nozzle_c = v.nozzle_c;
-    place.bed_c = v.bed_c;
-    place.modal.unit_mm = v.unit_mm;
-    place.modal.feed_mm_s = v.feed_mm_s;
-    place.modal.weights = v.weights;
-    place.relative = v.relative != 0;
-    place.relative_e = v.relative_e != 0;
+    each_value(place, v, [](auto& to, const auto& from) {
+        if constexpr (is_flag<decltype(to)>) {
+            to = from != 0;
+        } else {
+            to = from;
+        }
+    });
     return place;
 }
 
