@@ -58,9 +58,10 @@ const std::vector<const Field*>& stored_fields() {
     return stored;
 }
 
-/// What is noted of a field that was written: its number's bits, so that -0.0 is not 0.0.
-std::uint64_t note_of(const Field& field, const printer::Printer& printer) {
-    return std::bit_cast<std::uint64_t>(field.get(printer).number);
+/// What is noted of a field that was written: its number's bits, so that -0.0 is not 0.0. Text has no note;
+/// of a part that this machine has not there is nothing to write.
+std::uint64_t note_of(const Value& value) {
+    return std::bit_cast<std::uint64_t>(value.number);
 }
 
 /// Whether the image says all of it already.
@@ -71,8 +72,11 @@ bool written(printer::Printer& printer, std::string_view prefix) {
         return false;
     }
     for (std::size_t i = 0; i < stored.size(); ++i) {
-        if ((prefix.empty() || stored[i]->path.starts_with(prefix)) &&
-            (note_of(*stored[i], printer) != notes[i] || stored[i]->type == FieldType::text)) {
+        if (!prefix.empty() && !stored[i]->path.starts_with(prefix)) {
+            continue;
+        }
+        const Value value = stored[i]->get(printer);
+        if (value.is_text() || note_of(value) != notes[i]) {
             return false;
         }
     }
@@ -99,7 +103,7 @@ void write(printer::Printer& printer, std::string_view prefix) {
         if (stored[i]->path.starts_with(prefix)) {
             append_value(draft, *stored[i], printer);
             if (!notes.empty()) {
-                notes[i] = note_of(*stored[i], printer);
+                notes[i] = note_of(stored[i]->get(printer));
             }
         }
     }

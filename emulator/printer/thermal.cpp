@@ -13,6 +13,8 @@ namespace {
 
 constexpr double rest_within_k = 0.005;
 constexpr double near_max_k = 50;
+constexpr double reading_error_k = 2;  // quantised and folded, it is less than this from the truth
+constexpr double longest_look_s = 600;
 // A change of exactly 1.0 counts, also where it is made of two sevenths of a degree.
 constexpr double report_change_c = 1.0 - 1e-9;
 
@@ -47,6 +49,7 @@ void Thermal::power_on(SimTime now) {
     at_rest_ = false;
     frozen_ = false;
     powered_ = true;
+    plan_alarm_check();
 }
 
 void Thermal::advance(SimTime now) {
@@ -56,10 +59,15 @@ void Thermal::advance(SimTime now) {
             index_ += static_cast<std::uint64_t>(due);
             since_power_on_ += static_cast<std::uint64_t>(due);
             next_ += due * config_->period;
+            alarm_check_ = never;
             return;
         }
+        const bool looked_for = next_ >= alarm_check_;
         measure();
         next_ += config_->period;
+        if (looked_for) {
+            plan_alarm_check();
+        }
     }
 }
 
@@ -74,6 +82,7 @@ SimTime Thermal::next_measurement() const {
 bool Thermal::set_target(HeaterId id, double c) {
     Heater& h = heater(id);
     h.target_c = c > 0 ? std::min(c, h.config->max_target_c) : 0.0;
+    plan_alarm_check();
     return h.target_c != c;
 }
 
@@ -90,12 +99,14 @@ void Thermal::mark_reported() {
 void Thermal::set_temperature(HeaterId id, double c) {
     heater(id).plant.set_temperature(c);
     at_rest_ = false;
+    plan_alarm_check();
 }
 
 void Thermal::set_ambient(double c) {
     for (Heater& h : heaters_)
         h.plant.set_ambient(c);
     at_rest_ = false;
+    plan_alarm_check();
 }
 
 void Thermal::measure() {
@@ -144,6 +155,7 @@ double Thermal::sensed_c(const Heater& h) {
 void Thermal::set_trouble(HeaterId id, const HeaterTrouble& trouble) {
     heater(id).trouble = trouble;
     at_rest_ = false;
+    plan_alarm_check();
 }
 
 std::optional<HeaterId> Thermal::take_alarm() {
@@ -155,24 +167,46 @@ std::optional<HeaterId> Thermal::take_alarm() {
     return std::nullopt;
 }
 
-SimTime Thermal::next_alarm_check() const {
+/// From what is now until `heater` may be found broken, as long as nobody touches it: never too early to ask
+/// again at, and never too late.
+SimTime Thermal::earliest_alarm(const Heater& h) const {
+    const ProtectionConfig& limits = h.config->protection;
+    if (h.target_c == 0 && !h.commanded && !(h.trouble.stuck > 0)) {
+        // What is still under way heats it by less than that.
+        return sensed_c(h) > limits.max_c - near_max_k ? next_ : never;
+    }
+    if (h.trouble != HeaterTrouble{} || !h.protection.watches(h.target_c)) {
+        return next_;
+    }
+    if (h.plant.coldest_c() < limits.min_c + reading_error_k) {
+        return next_;
+    }
+    // No sensor reads more than the warmest there is, and that rises no faster than full power makes it.
+    const double room_k = limits.max_c - reading_error_k - h.plant.warmest_c();
+    const double hot_s = room_k / h.config->plant.heating_k_per_s;
+    if (!(hot_s > 0)) {
+        return next_;
+    }
+    return std::min(next_ + from_seconds(std::min(hot_s, longest_look_s)), h.protection.earliest(next_));
+}
+
+void Thermal::plan_alarm_check() {
     if (settled() || frozen_) {
-        return never;
+        alarm_check_ = never;
+        return;
     }
-    for (const Heater& h : heaters_) {
-        // Nothing else rises so fast that it needs to be looked at before something else comes up.
-        const bool warm = sensed_c(h) > h.config->protection.max_c - near_max_k;
-        if (h.target_c != 0 || h.commanded || h.trouble.stuck > 0 || warm) {
-            return next_;
-        }
-    }
-    return never;
+    const SimTime earliest = std::min(earliest_alarm(heaters_[0]), earliest_alarm(heaters_[1]));
+    const SimTime period = config_->period;
+    alarm_check_ = earliest == never   ? never
+                   : earliest <= next_ ? next_
+                                       : next_ + (earliest - next_ + period - SimTime{1}) / period * period;
 }
 
 void Thermal::freeze(bool powered) {
     frozen_ = true;
     powered_ = powered;
     at_rest_ = false;
+    alarm_check_ = never;
 }
 
 /// Looks at what was just read. A heater that is found to be broken puts both off, with this measurement.

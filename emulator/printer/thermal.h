@@ -72,8 +72,8 @@ class Thermal {
     std::optional<HeaterId> take_alarm();
     /// Why it was, until it is heated anew or the board restarts.
     ThermalAlarm alarm(HeaterId id) const { return heater(id).protection.alarm(); }
-    /// A measurement that may raise an alarm; `never` if none can.
-    SimTime next_alarm_check() const;
+    /// The first measurement that may raise an alarm; `never` if none can before something else happens.
+    SimTime next_alarm_check() const { return alarm_check_; }
     /// The board's program stands still: nothing is read or controlled until it restarts. Heaters stay as
     /// they are, or lose their power.
     void freeze(bool powered);
@@ -128,6 +128,8 @@ class Thermal {
     static double share_of_full(const Heater& h) { return h.output / h.config->pid.max_output; }
     static double real_power(const Heater& h);
     static double sensed_c(const Heater& h);
+    SimTime earliest_alarm(const Heater& h) const;
+    void plan_alarm_check();
     void measure();
     void protect();
     void read_sensor(Heater& h);
@@ -142,6 +144,7 @@ class Thermal {
     std::array<double, 4> printed_{};  // by ThermalChannel
     std::array<double, 4> reported_{};
     SimTime next_{never};
+    SimTime alarm_check_{never};       // on the grid of measurements
     std::uint64_t index_{0};           // of the next measurement, since construction
     std::uint64_t since_power_on_{0};  // measurements
     bool moved_{false};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -28,6 +29,10 @@ class ThermalPlant {
 
     /// What the sensor feels, degrees C, neither quantised nor folded.
     double sensor_c() const { return ambient_c_ + state_[2]; }
+
+    /// Of all masses, the sensor and what surrounds them, degrees C.
+    double warmest_c() const { return ambient_c_ + std::max({0.0, state_[0], state_[1], state_[2]}); }
+    double coldest_c() const { return ambient_c_ + std::min({0.0, state_[0], state_[1], state_[2]}); }
 
     double ambient_c() const { return ambient_c_; }
 

@@ -1,5 +1,7 @@
 #include "emulator/printer/thermal_protection.h"
 
+#include <algorithm>
+
 namespace fauxboard::printer {
 namespace {
 
@@ -50,6 +52,14 @@ ThermalAlarm ThermalProtection::watch(SimTime now, double target_c, double readi
         return ThermalAlarm::none;
     }
     return now >= due_ ? ThermalAlarm::no_rise : ThermalAlarm::none;
+}
+
+SimTime ThermalProtection::earliest(SimTime next) const {
+    const SimTime runaway = from_seconds(config_->runaway_s);
+    if (reached_) {
+        return away_since_ + runaway;
+    }
+    return std::min(next + runaway, due_ == never ? next + from_seconds(config_->watch_s) : due_);
 }
 
 }  // namespace fauxboard::printer

@@ -20,6 +20,11 @@ class ThermalProtection {
     /// something is newly found wrong. Too hot is told once, until it reads clearly less again or is to be
     /// heated.
     bool check(SimTime now, double target_c, double reading_c);
+    /// Whether the last check was with this target.
+    bool watches(double target_c) const { return target_c == target_c_; }
+    /// If it was: when a check may at the earliest find that the heater does not rise
+    /// or runs away, the next check being at `next`.
+    SimTime earliest(SimTime next) const;
     /// What was found wrong last, until it is heated anew.
     ThermalAlarm alarm() const { return alarm_; }
     /// Forgets everything, as after power-on.
