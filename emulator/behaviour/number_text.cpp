@@ -34,11 +34,20 @@ Written write_exactly(std::span<char> out, double value, int decimals) {
 
 std::size_t digits_of(std::uint32_t number) {
     std::size_t digits = 1;
-    for (; number >= 100; number /= 100) {
-        digits += 2;
+    for (; number >= 1000; number /= 1000) {
+        digits += 3;
     }
-    return digits + (number >= 10 ? 1 : 0);
+    return digits + (number >= 10 ? 1 : 0) + (number >= 100 ? 1 : 0);
 }
+
+/// "00" to "99", for two digits are found with one division.
+constexpr auto pairs = [] {
+    std::array<std::array<char, 2>, 100> all{};
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        all[i] = {static_cast<char>('0' + i / 10), static_cast<char>('0' + i % 10)};
+    }
+    return all;
+}();
 
 }  // namespace
 
@@ -70,8 +79,15 @@ Written write_fixed(std::span<char> out, double value, int decimals) {
         sum ^= character;
     };
     const auto put_digits = [&](std::size_t count) {
-        for (std::size_t i = 0; i < count; ++i, number /= 10) {
+        for (; count >= 2; count -= 2, number /= 100) {
+            const std::array<char, 2>& pair = pairs[number % 100];
+            at -= pair.size();
+            std::memcpy(at, pair.data(), pair.size());
+            sum ^= static_cast<unsigned>(pair[0] ^ pair[1]);
+        }
+        if (count != 0) {
             put('0' + number % 10);
+            number /= 10;
         }
     };
     if (places != 0) {

@@ -97,7 +97,7 @@ void HostCommands::advance(SimTime now) {
     }
 }
 
-SimTime HostCommands::next_event() const {
+SimTime HostCommands::next_of_command() const {
     const SimTime now = source_.printer.now();
     SimTime next = busy_;
     if (source_.wake > now) {

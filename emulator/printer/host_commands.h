@@ -34,7 +34,10 @@ class HostCommands {
     void acknowledge() { acknowledged_ = true; }
 
     void advance(SimTime now);
-    SimTime next_event() const;
+    SimTime next_event() const {
+        const bool idle = busy_ == never && source_.wake == SimTime{0} && !source_.arc.active();
+        return idle ? never : next_of_command();
+    }
 
     std::int64_t last_line = 0;                              ///< number of the last good line
     std::uint64_t resends = 0;                               ///< lines asked for again, since power-on
@@ -45,6 +48,7 @@ class HostCommands {
   private:
     void parse(std::string_view command);
     void stream();
+    SimTime next_of_command() const;
 
     GcodeSource source_;
     GcodeLine line_;

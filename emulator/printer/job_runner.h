@@ -47,6 +47,8 @@ class JobRunner {
 
     void advance(SimTime now);
     SimTime next_event() const;
+    /// A finished job is still shown, for a while.
+    bool shows_finished() const { return close_ != never; }
 
     JobCounts counts() const { return {lines_, source_.moves, unknown_codes_}; }
     /// The byte in the file at which the move under way begins: what a power cut loses begins here.

@@ -108,10 +108,17 @@ SimTime Printer::next_event() const {
     if (hung_) {
         return breakdowns.next_event();
     }
-    return std::min({motion.next_event(), feeder.next_event(), wait.next_event(),
-                     (resin ? resin->next_event() : runner.next_event()), host.next_event(),
-                     recovery.next_event(), card_check_, thermal.next_alarm_check(),
+    return std::min({motion.next_event(), feeder.next_event(), wait.next_event(), next_of_job(),
+                     host.next_event(), recovery.next_event(), card_check_, thermal.next_alarm_check(),
                      breakdowns.next_event()});
+}
+
+SimTime Printer::next_of_job() const {
+    if (resin) {
+        return resin->next_event();
+    }
+    // Asked several times for each request; most boards print nothing.
+    return job.status() == JobStatus::printing || runner.shows_finished() ? runner.next_event() : never;
 }
 
 bool Printer::restless() const {

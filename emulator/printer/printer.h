@@ -175,6 +175,7 @@ class Printer {
     void emit_after_motion();
     void put_in(int disk);
     void raise_alarms();
+    SimTime next_of_job() const;
     void follow_filament();
     bool too_cold_to_extrude() const;
 

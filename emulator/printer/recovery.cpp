@@ -81,8 +81,8 @@ bool Recovery::begin() {
     return true;
 }
 
-SimTime Recovery::next_event() const {
-    const bool waits = step_ == Step::none || printer_.wait.active() || printer_.motion.busy();
+SimTime Recovery::next_step() const {
+    const bool waits = printer_.wait.active() || printer_.motion.busy();
     return waits ? never : printer_.now();
 }
 

@@ -35,12 +35,13 @@ class Recovery {
     /// To be called when the job may have come further.
     void keep();
     void advance(SimTime now);
-    SimTime next_event() const;
+    SimTime next_event() const { return step_ == Step::none ? never : next_step(); }
     bool active() const { return step_ != Step::none; }
 
   private:
     enum class Step : std::uint8_t { none, bed, nozzle, home, travel, print };
 
+    SimTime next_step() const;
     void heat(HeaterId heater, double c);
     void travel();
     void print();

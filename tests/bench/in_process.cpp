@@ -195,9 +195,7 @@ std::vector<Figure> day(const Settings& settings) {
                            protocol::frame("M140 S60"));
     const auto start = Clock::now();
     now += settings.smoke ? SimTime(std::chrono::minutes(10)) : SimTime(std::chrono::hours(24));
-    std::size_t bytes = 0;
     while (board.advance(now) <= now) {
-        bytes += board.output().size();
         board.clear_output();
     }
     return {{"24 h idle with heaters on, in process", "s", seconds_since(start), {}, 1}};
