@@ -186,7 +186,7 @@ void JobPlaceFile::write(std::string_view payload) {
     std::array<char, slot_bytes> slot;
     const Head head{mark, sequence_, payload.size(), checksum(sequence_, payload)};
     std::memcpy(slot.data(), &head, sizeof head);
-    std::memcpy(slot.data() + sizeof head, payload.data(), payload.size());
+    payload.copy(slot.data() + sizeof head, payload.size());
     const std::size_t size = sizeof head + payload.size();
     const auto offset = static_cast<off_t>(sequence_ % 2 * slot_bytes);
     if (::pwrite(fd_.get(), slot.data(), size, offset) != static_cast<ssize_t>(size) && !complained_) {
