@@ -124,8 +124,7 @@ class LineSplitter {
                 if (run != 0) on_line(piece);
             } else {
                 keep(piece);
-                const std::size_t length = finish();
-                if (length != 0) on_line(std::string_view(partial_.data(), length));
+                end_line(on_line);
             }
         }
     }
@@ -136,6 +135,12 @@ class LineSplitter {
     std::uint64_t nuls() const { return nuls_; }
     /// True while bytes of an unfinished line have come in.
     bool in_line() const { return length_ != 0 || dropping_; }
+    /// Calls on_line as feed() does with the unfinished line, as if its end had come; not for an empty one.
+    template <class F>
+    void end_line(F&& on_line) {
+        const std::size_t length = finish();
+        if (length != 0) on_line(std::string_view(partial_.data(), length));
+    }
     /// Forgets the unfinished line (the port was closed); the counters stay.
     void reset() {
         length_ = 0;

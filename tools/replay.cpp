@@ -5,8 +5,11 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 
 #include "emulator/host/compare.h"
+#include "emulator/host/folder_card.h"
+#include "emulator/host/host_error.h"
 #include "emulator/host/profile_files.h"
 #include "tools/report.h"
 
@@ -16,6 +19,7 @@ namespace {
 struct ReplayArguments {
     std::string profile = "geeetech-a30t";
     std::string capture;
+    std::string sd;
     host::ReplayOptions options;
     bool compare = false;
     bool json = false;
@@ -33,7 +37,12 @@ void print_notices(const host::ReplayResult& result) {
 ExitCode replay(const ReplayArguments& arguments) {
     const auto profile = host::load_profile_by_name(arguments.profile);
     const auto recording = host::load_recording(std::filesystem::path(arguments.capture));
-    const host::ReplayResult result = host::replay(profile, recording, arguments.options);
+    host::ReplayOptions options = arguments.options;
+    std::optional<host::FolderCard> card;
+    if (!arguments.sd.empty()) {
+        options.services.sd = &card.emplace(arguments.sd);
+    }
+    const host::ReplayResult result = host::replay(profile, recording, options);
     print_notices(result);
     if (!arguments.compare) {
         std::string text;
@@ -57,6 +66,8 @@ ExitCode guarded(const ReplayArguments& arguments) {
         return complain("replay", ExitCode::bad_input, error.what());
     } catch (const host::RecordingError& error) {
         return complain("replay", ExitCode::bad_input, error.what());
+    } catch (const host::HostError& error) {
+        return complain("replay", ExitCode::bad_input, error.what());
     } catch (const host::ReplayError& error) {
         return complain("replay", ExitCode::bad_input, arguments.capture + ": " + error.what());
     }
@@ -73,6 +84,8 @@ void add_replay(CLI::App& app, ExitCode& exit) {
         ->capture_default_str();
     command->add_option("--seed", arguments->options.seed, "Start of the random sequence")
         ->capture_default_str();
+    command->add_option("--sd", arguments->sd,
+                        "Folder that is the board's SD card or stick, to be read and written");
     command->add_option("capture", arguments->capture, "The recording, JSON lines")->required();
     CLI::Option* compare = command->add_flag(
         "--compare", arguments->compare,

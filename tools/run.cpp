@@ -28,6 +28,7 @@
 #include "emulator/link/event_loop.h"
 #include "emulator/link/ports.h"
 #include "emulator/link/udp_socket.h"
+#include "emulator/printer/memory_volume.h"
 #include "tools/commands.h"
 #include "tools/report.h"
 #include "tools/run_options.h"
@@ -105,7 +106,7 @@ class Run {
     std::shared_ptr<const behaviour::Profile> profile_;
     std::optional<host::FolderCard> card_;
     std::optional<host::FolderCard> udisk_;
-    std::optional<printer::BuiltInVolume> scenario_card_;
+    std::optional<printer::MemoryVolume> scenario_card_;
     std::optional<host::EepromFile> eeprom_;
     std::optional<host::JobPlaceFile> job_place_;
     std::optional<host::Recorder> recorder_;
@@ -160,6 +161,7 @@ std::unique_ptr<link::Link> Run::make_host_link() {
 }
 
 void Run::set_up() {
+    log_.call_peer(profile_->line.peer);
     observers_.add(log_);
     const auto warn = [this](std::string_view text) { say(board::Level::warning, text); };
     if (!options_.record.empty()) {
@@ -306,9 +308,9 @@ void Run::say_summary() {
     const board::Counters& c = board_->counters();
     const link::LinkStats& l = link_->stats();
     err_.write(fmt::format(
-        "After {:.3f} s: {} lines from the screen, {} to it. Bad frames {}, too long {}, unknown codes {}, "
+        "After {:.3f} s: {} lines from the {}, {} to it. Bad frames {}, too long {}, unknown codes {}, "
         "no rule {}, requests lost {}, messages lost {}, cut {}. Bytes in {}, out {}, lost {}.\n",
-        printer::to_seconds(live_->now()), c.lines_received, c.lines_sent, c.bad_frames,
+        printer::to_seconds(live_->now()), c.lines_received, profile_->line.peer, c.lines_sent, c.bad_frames,
         board_->lines_too_long(), c.unknown_codes, c.unmatched, c.requests_lost, c.messages_lost, c.lines_cut,
         l.bytes_in, l.bytes_out, l.bytes_lost));
     for (const fault::FaultStatus& status : link_->list()) {

@@ -21,8 +21,18 @@ std::uint64_t place(const Value& v) {
                : Transfer::max_bytes;
 }
 
+/// The file that must not change: the one being printed.
+std::string_view in_use(const printer::Printer& p) {
+    return p.job.active() && p.job.volume() == p.storage.chosen() ? std::string_view(p.job.path())
+                                                                  : std::string_view{};
+}
+
 void upload(ActionContext& c, Args a) {
-    c.printer.transfer.upload(c.printer.now(), c.printer.transfer.asker, words(a[0]));
+    c.printer.transfer.upload(c.printer.now(), c.printer.transfer.asker, words(a[0]), in_use(c.printer));
+}
+
+void finish(ActionContext& c, Args) {
+    c.printer.transfer.finish(c.printer.now(), c.printer.transfer.asker, in_use(c.printer));
 }
 
 void download(ActionContext& c, Args a) {
@@ -44,12 +54,7 @@ constexpr std::array block_args{
 constexpr std::array table{
     ActionInfo{"transfer.upload", "", "begins to take a file in (M28); written beside until it is finished",
                name_args, upload},
-    ActionInfo{
-        "transfer.finish",
-        "",
-        "the upload is whole and takes its name (M29)",
-        {},
-        [](ActionContext& c, Args) { c.printer.transfer.finish(c.printer.now(), c.printer.transfer.asker); }},
+    ActionInfo{"transfer.finish", "", "the upload is whole and takes its name (M29)", {}, finish},
     ActionInfo{"transfer.download", "", "begins to give a file out (M6032)", name_args, download},
     ActionInfo{"transfer.block", "", "reads a block of it, for a frame with \"chunk\" (M3000, M3001)",
                block_args, block},

@@ -87,9 +87,45 @@ constexpr std::array own{
          [](const Printer&, const Resin& r) { return std::string_view{r.file}; }),
     seen("resin.file_bytes", integer, "bytes", "its size",
          [](const Printer&, const Resin& r) { return r.file_bytes; }),
-    kept("resin.wifi_password", text, "", 0, 63, "password of the network (M9003, M9005)",
-         FAUXBOARD_RESIN_PLACE(wifi_password)),
 };
+
+// A resin board keeps its network; other boards have the same values and do not.
+
+Field network_name() {
+    return {"resin.wifi_ssid",
+            text,
+            "",
+            0,
+            39,
+            true,
+            "network that it joins or opens (M9003, M9005): wifi.ssid, kept",
+            [](const Printer& p) { return p.resin ? as_value(p.wifi.ssid) : Value{}; },
+            [](Printer& p, const Value& v) {
+                if (p.resin) {
+                    assign(p.wifi.ssid, v);
+                }
+            }};
+}
+
+Field network_kind() {
+    return {"resin.wifi_kind",
+            integer,
+            "",
+            0,
+            2,
+            true,
+            "0 no network, 1 joins one (M9003), 2 opens its own (M9005): wifi.enabled and wifi.access_point, "
+            "kept",
+            [](const Printer& p) {
+                return p.resin ? as_value(!p.wifi.enabled ? 0 : p.wifi.access_point ? 2 : 1) : Value{};
+            },
+            [](Printer& p, const Value& v) {
+                if (p.resin) {
+                    p.wifi.enabled = v.number > 0;
+                    p.wifi.access_point = v.number == 2;
+                }
+            }};
+}
 
 /// A setting shows as it is edited. Whoever sets its field, unlike M8xxx, puts it into use at once.
 template <std::size_t I>
@@ -117,7 +153,13 @@ std::vector<Field> all_rows(std::index_sequence<I...>) {
     std::vector<Field> rows(own.begin(), own.end());
     rows.push_back(kept("resin.network_name", text, "", 0, 15, "name in the network (U100)",
                         FAUXBOARD_RESIN_PLACE(network_name)));
-    rows.back().stored = true;
+    rows.push_back(kept("resin.wifi_password", text, "", 0, 63, "password of the network (M9003, M9005)",
+                        FAUXBOARD_RESIN_PLACE(wifi_password)));
+    rows.push_back(network_name());
+    rows.push_back(network_kind());
+    for (std::size_t i = own.size(); i < rows.size(); ++i) {
+        rows[i].stored = true;
+    }
     (rows.push_back(setting<I>()), ...);
     return rows;
 }

@@ -14,7 +14,7 @@ constexpr std::array table{
     shown("transfer.mode", text, "", "what is open: none, upload, download",
           [](const Printer& p) { return to_string(p.transfer.mode()); }),
     shown("transfer.outcome", text, "",
-          "of the last request or piece: done, busy, not_open, no_name, no_disk, missing, resend, "
+          "of the last request or piece: done, busy, in_use, not_open, no_name, no_disk, missing, resend, "
           "write_failed, at_end",
           [](const Printer& p) { return to_string(p.transfer.outcome); }),
     shown("transfer.name", text, "", "of the file that is open, or was; as it was asked for",

@@ -39,6 +39,8 @@ struct LineConfig {
     unsigned baud = 115200;
     protocol::ChecksumPolicy checksum = protocol::ChecksumPolicy::required;
     unsigned queue_lines = 64;  ///< requests waiting for their tick; more are lost, as in the board's buffer
+    std::string peer = "screen";  ///< what logs call the other end
+    SimTime unfinished{0};  ///< a line without an end is taken for whole after so long a silence; 0: never
 };
 
 /// One message the board can send: one line, or several that leave together.
@@ -51,7 +53,7 @@ struct Frame {
     std::string name;
     protocol::FrameStyle style = protocol::FrameStyle::framed;
     protocol::LineEnd end = protocol::LineEnd::crlf;
-    bool chunk = false;  ///< no lines: the block of a file that transfer.block read
+    bool chunk = false;         ///< no lines: the block of a file that transfer.block read
     std::optional<Channel> to;  ///< nothing: the channel that asked; the main line, if nobody asked
     std::vector<Line> lines;
     std::vector<ActionCall> then;  ///< done when it is queued

@@ -79,6 +79,10 @@ void Loader::load_line(const Json& node, const std::string& pointer) {
     auto policy = static_cast<std::size_t>(profile_->line.checksum);
     reader.choice("checksum", policies, policy);
     profile_->line.checksum = static_cast<protocol::ChecksumPolicy>(policy);
+    reader.text("peer", profile_->line.peer, 16);
+    double unfinished_ms = 0;
+    reader.number("unfinished_ms", unfinished_ms, 0, 60'000);
+    profile_->line.unfinished = printer::from_seconds(unfinished_ms / 1000);
     reader.finish();
 }
 

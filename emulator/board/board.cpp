@@ -76,6 +76,7 @@ void Board::power_on(SimTime now) {
     outbox_.clear();
     network_ = NetworkOutbox();
     host_inbox_.clear();
+    unfinished_due_ = never;
     asker_ = Channel::main;
     for (Port& each : ports_) {
         each.splitter.reset();
@@ -120,6 +121,9 @@ void Board::reload(std::shared_ptr<const behaviour::Profile> profile) {
 void Board::receive(SimTime now, std::string_view bytes, Channel channel) {
     catch_up(now);
     port(channel).splitter.feed(bytes, [this, channel](std::string_view line) { take_line(channel, line); });
+    if (channel == Channel::main && profile_->line.unfinished > SimTime{0} && !bytes.empty()) {
+        unfinished_due_ = port(channel).splitter.in_line() ? time_ + profile_->line.unfinished : never;
+    }
 }
 
 std::uint64_t Board::lines_too_long() const {
@@ -299,7 +303,7 @@ SimTime Board::next_due() const {
     }
     const SimTime wheel =
         wheel_.next_slot() <= time_ ? wheel_.next_slot() : wheel_.next_due(scope(), machine_.restless());
-    return std::min({machine_.next_event(), next_tick(), wheel});
+    return std::min({machine_.next_event(), next_tick(), wheel, unfinished_due_});
 }
 
 /// A time before which nothing is due, found without asking which of the wheel's slots may send.
@@ -307,7 +311,7 @@ SimTime Board::nothing_before() const {
     if (machine_.hung()) {
         return machine_.next_event();
     }
-    return std::min({machine_.next_event(), next_tick(), wheel_.next_slot()});
+    return std::min({machine_.next_event(), next_tick(), wheel_.next_slot(), unfinished_due_});
 }
 
 /// Goes through the slots before `end`. Those passed over because nothing could come of them are among them,
@@ -360,6 +364,12 @@ void Board::step(SimTime due) {
     machine_.advance(time_);
     settle();
     run_host();
+    if (unfinished_due_ <= time_) {
+        unfinished_due_ = never;
+        port(Channel::main).splitter.end_line([this](std::string_view line) {
+            take_line(Channel::main, line);
+        });
+    }
     run_slots(time_ + SimTime{1});
     if (!machine_.hung() && next_tick() <= time_) {
         run_tick();

@@ -54,6 +54,10 @@ class Observer {
     /// Something happened to the machine (see printer::events()); told before the profile's rules for it are
     /// carried out.
     virtual void on_event(SimTime /*now*/, printer::EventId /*event*/) {}
+    /// A datagram came from `peer`, or goes to it, whole. Requests and answers in it are told as lines too,
+    /// with Channel::network; pieces of files are not.
+    virtual void on_datagram(SimTime /*now*/, std::uint64_t /*peer*/, bool /*to_board*/,
+                             std::string_view /*bytes*/) {}
 };
 
 struct Options {
@@ -170,6 +174,8 @@ class Board final : private behaviour::NoticeSink {
     bool unframe(std::string_view line, std::string_view& body) const;
     void execute(Channel channel, std::string_view body);
     void take_piece(std::uint64_t peer, const protocol::Chunk& chunk);
+    printer::Transfer::Mishap mishap();
+    void put_datagrams(std::span<char> message, bool block);
     void take_request(std::string_view bytes);
     void run_rule(const behaviour::Rule& rule, const behaviour::Scope& scope);
     bool run_rules(const std::vector<behaviour::Rule>& rules, const protocol::Command* command);
@@ -214,6 +220,7 @@ class Board final : private behaviour::NoticeSink {
     SimTime time_{0};
     SimTime power_on_{0};
     SimTime last_tick_{0};
+    SimTime unfinished_due_ = printer::never;  ///< when an unfinished line of the main line counts as whole
     std::set<std::string, std::less<>> told_;  ///< unknown codes already warned of, bounded
 };
 

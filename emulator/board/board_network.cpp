@@ -36,6 +36,9 @@ void Board::receive_datagram(SimTime now, std::uint64_t peer, std::string_view b
         return;
     }
     machine_.advance(time_);
+    if (options_.observer != nullptr) {
+        options_.observer->on_datagram(time_, peer, true, bytes);
+    }
     network_.answer(peer);
     machine_.transfer.asker = peer;
     const protocol::Chunk chunk = protocol::read_chunk(bytes);
@@ -52,11 +55,49 @@ void Board::receive_datagram(SimTime now, std::uint64_t peer, std::string_view b
     settle();
 }
 
+/// What becomes of the next piece or block on its way. Chance is asked only where something is wrong, so that
+/// a sound network leaves the machine's sequence alone.
+Transfer::Mishap Board::mishap() {
+    const Transfer::Trouble& trouble = machine_.transfer.trouble;
+    return trouble.any() ? trouble.mishap(machine_.random()) : Transfer::Mishap::none;
+}
+
 void Board::take_piece(std::uint64_t peer, const protocol::Chunk& chunk) {
-    machine_.transfer.piece(time_, peer, chunk.fault == protocol::ChunkFault::none, chunk.offset,
-                            chunk.payload);
+    const Transfer::Mishap what = mishap();
+    if (what == Transfer::Mishap::lost) {
+        notice(Level::debug, "a piece of a file was lost on its way");
+        return;
+    }
+    const bool intact = chunk.fault == protocol::ChunkFault::none && what != Transfer::Mishap::damaged;
     asker_ = Channel::network;
-    run_rules(profile_->events[static_cast<std::size_t>(printer::EventId::transfer_piece)], nullptr);
+    for (int times = what == Transfer::Mishap::repeated ? 2 : 1; times > 0; --times) {
+        machine_.transfer.piece(time_, peer, intact, chunk.offset, chunk.payload);
+        if (what == Transfer::Mishap::answer_lost) {
+            network_.answer(0);
+            notice(Level::debug, "the answer to a piece of a file was lost on its way");
+        }
+        run_rules(profile_->events[static_cast<std::size_t>(printer::EventId::transfer_piece)], nullptr);
+    }
+}
+
+/// Puts a message on its way to the one who asks; `block` says that it is one of a file.
+void Board::put_datagrams(std::span<char> message, bool block) {
+    const Transfer::Mishap what = block && !message.empty() ? mishap() : Transfer::Mishap::none;
+    if (what == Transfer::Mishap::lost || what == Transfer::Mishap::answer_lost) {
+        notice(Level::debug, "a block of a file was lost on its way");
+        return;
+    }
+    if (what == Transfer::Mishap::damaged) {
+        message.front() = static_cast<char>(message.front() ^ 1);
+    }
+    const auto tell = [this](std::string_view bytes) {
+        if (options_.observer != nullptr) {
+            options_.observer->on_datagram(time_, network_.peer(), false, bytes);
+        }
+    };
+    for (int times = what == Transfer::Mishap::repeated ? 2 : 1; times > 0; --times) {
+        network_.add({message.data(), message.size()}, block, tell);
+    }
 }
 
 void Board::take_request(std::string_view bytes) {

@@ -45,11 +45,11 @@ void Board::send(const Send& entry, const Scope& here) {
         }
         const std::string_view message(draft.room.data(), draft.size);
         if (to == Channel::network) {
-            network_.add(message, frame.chunk);
             counters_.lines_sent += draft.lines;
             if (!frame.chunk) {
                 tell_sent(to, message);
             }
+            put_datagrams(draft.room.first(draft.size), frame.chunk);
         } else if (at_once) {
             output.grow(draft.size);
             counters_.lines_sent += draft.lines;

@@ -20,13 +20,18 @@ class NetworkOutbox {
     bool asking() const { return peer_ != 0; }
     bool full() const { return bytes_.size() >= limit; }
 
-    /// A message for the one who asked: a datagram for each line, its end included, or one for it all.
-    void add(std::string_view message, bool whole) {
+    std::uint64_t peer() const { return peer_; }
+
+    /// A message for the one who asked: a datagram for each line, its end included, or one for it all. Calls
+    /// told(bytes) for each.
+    template <class Told>
+    void add(std::string_view message, bool whole, Told&& told) {
         while (!message.empty()) {
             const std::size_t end =
                 whole ? message.size() : std::min(message.find('\n'), message.size() - 1) + 1;
             entries_.push_back({peer_, end});
             bytes_ += message.substr(0, end);
+            told(message.substr(0, end));
             message.remove_prefix(end);
         }
     }

@@ -110,13 +110,13 @@ void LineLog::on_received(SimTime now, board::Channel channel, std::string_view 
     std::string words = words_of(line, protocol::Direction::to_board);
     words += words_of(verdict);
     print(now, verdict == board::Verdict::accepted ? cyan : red,
-          fmt::format("{} → board", board::other_end(channel)), printable(line), words);
+          fmt::format("{} → board", other_end(channel)), printable(line), words);
 }
 
 void LineLog::on_sent(SimTime now, board::Channel channel, std::string_view line) {
     if (detail_ != Detail::quiet && passes(now)) {
         const bool screen = channel == board::Channel::main;
-        print(now, green, fmt::format("board → {}", board::other_end(channel)), printable(line),
+        print(now, green, fmt::format("board → {}", other_end(channel)), printable(line),
               screen ? words_of(line, protocol::Direction::to_screen) : std::string());
     }
 }

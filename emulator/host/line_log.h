@@ -20,6 +20,8 @@ enum class Detail : std::uint8_t {
 ///     12.345  screen → board  N-0 M104 S200*106            nozzle: target 200 °C
 class LineLog final : public LiveObserver {
   public:
+    /// What the main line's other end is called from here on: "screen" until told.
+    void call_peer(std::string_view name) { peer_ = name; }
     /// `lines_per_second` (of virtual time) is what passes for long in Detail::normal; bursts of four times
     /// as many lines do, too. Zero: no limit.
     LineLog(TextOutput& out, Detail detail, double lines_per_second);
@@ -37,8 +39,13 @@ class LineLog final : public LiveObserver {
     void print(SimTime now, std::string_view colour, std::string_view head, std::string_view text,
                std::string_view words);
 
+    std::string_view other_end(board::Channel channel) const {
+        return channel == board::Channel::main ? std::string_view(peer_) : board::other_end(channel);
+    }
+
     TextOutput& out_;
     Detail detail_;
+    std::string peer_ = "screen";
     bool colours_;
     double rate_;
     double burst_;

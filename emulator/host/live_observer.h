@@ -39,6 +39,10 @@ class Observers final : public LiveObserver {
         for (LiveObserver* each : all_)
             each->on_event(now, event);
     }
+    void on_datagram(SimTime now, std::uint64_t peer, bool to_board, std::string_view bytes) override {
+        for (LiveObserver* each : all_)
+            each->on_datagram(now, peer, to_board, bytes);
+    }
     void on_link(SimTime now, link::LinkState state, std::string_view why) override {
         for (LiveObserver* each : all_)
             each->on_link(now, state, why);

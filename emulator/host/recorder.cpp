@@ -12,6 +12,11 @@
 #include "emulator/host/recording.h"
 
 namespace fauxboard::host {
+namespace {
+
+constexpr std::size_t max_datagram = 4096;
+
+}  // namespace
 
 Recorder::Recorder(std::string file, OnTrouble on_trouble)
     : file_(std::move(file)),
@@ -26,23 +31,29 @@ Recorder::Recorder(std::string file, OnTrouble on_trouble)
 }
 
 void Recorder::on_received(SimTime now, board::Channel channel, std::string_view line, board::Verdict) {
-    // Datagrams are left out: without what files brought, they would replay as something else.
+    // What came as a datagram is kept as one.
     if (channel != board::Channel::network) {
-        write(now, board::other_end(channel), line);
+        write(now, recording_line(now, board::other_end(channel), "line", line));
     }
 }
 
 void Recorder::on_sent(SimTime now, board::Channel channel, std::string_view line) {
     if (channel != board::Channel::network) {
-        write(now, board::own_end(channel), line);
+        write(now, recording_line(now, board::own_end(channel), "line", line));
     }
 }
 
-void Recorder::write(SimTime now, std::string_view from, std::string_view line) {
+void Recorder::on_datagram(SimTime now, std::uint64_t peer, bool to_board, std::string_view bytes) {
+    using From = RecordedLine::From;
+    // Longer ones are neither pieces of files nor requests, and would not fit into a line of a recording.
+    const std::string_view kept = bytes.substr(0, max_datagram);
+    write(now, recording_line({now, to_board ? From::network : From::module, std::string(kept), peer}));
+}
+
+void Recorder::write(SimTime now, const std::string& text) {
     if (!fd_) {
         return;
     }
-    const std::string text = recording_line(now, from, "line", line);
     std::size_t done = 0;
     while (done < text.size()) {
         const ssize_t count = ::write(fd_.get(), text.data() + done, text.size() - done);

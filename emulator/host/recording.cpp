@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::size_t max_text = 64U * 1024;
 constexpr double max_seconds = 1e9;  // thirty years: beyond it is no recording
-constexpr std::array<std::string_view, 5> from_names{"board", "screen", "host", "world", "usb"};
+constexpr std::array<std::string_view, 7> from_names{"board", "screen",  "host",  "world",
+                                                     "usb",   "network", "module"};
 
 std::string found(const nlohmann::json& value) {
     const std::string text = value.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
@@ -89,17 +90,25 @@ RecordedLine RecordingReader::parse() {
                                                    std::string_view(from.get_ref<const std::string&>()))
                                        : from_names.end();
     if (name == from_names.end()) {
-        fail("from: " + found(from) + "; expected board, screen, host, world or usb");
+        fail("from: " + found(from) + "; expected board, screen, host, world, usb, network or module");
     }
     out.from = static_cast<RecordedLine::From>(name - from_names.begin());
-    const char* key = out.from == RecordedLine::From::world ? "do" : "line";
+    const char* key = out.key();
     const nlohmann::json& bytes = value(key);
     auto wire = bytes.is_string() ? behaviour::to_wire(bytes.get_ref<const std::string&>()) : std::nullopt;
-    if (!wire || wire->find_first_of(std::string_view("\r\n")) != std::string::npos) {
-        fail(fmt::format("{}: {}; expected a text of characters up to U+00FF without line ends", key,
-                         found(bytes)));
+    const bool ends = wire && wire->find_first_of(std::string_view("\r\n")) != std::string::npos;
+    if (!wire || (ends && !out.is_datagram())) {
+        fail(fmt::format("{}: {}; expected a text of characters up to U+00FF{}", key, found(bytes),
+                         out.is_datagram() ? "" : " without line ends"));
     }
     out.bytes = std::move(*wire);
+    if (out.is_datagram()) {
+        const nlohmann::json& peer = value("peer");
+        if (!peer.is_number_unsigned() || peer.get<std::uint64_t>() == 0) {
+            fail("peer: " + found(peer) + "; expected a whole number from 1 on");
+        }
+        out.peer = peer.get<std::uint64_t>();
+    }
     return out;
 }
 
@@ -132,8 +141,11 @@ std::string recording_line(printer::SimTime t, std::string_view from, std::strin
 }
 
 std::string recording_line(const RecordedLine& line) {
-    const bool world = line.from == RecordedLine::From::world;
-    return recording_line(line.t, from_name(line.from), world ? "do" : "line", line.bytes);
+    std::string text = recording_line(line.t, from_name(line.from), line.key(), line.bytes);
+    if (line.is_datagram()) {
+        text.insert(text.find(", \"datagram\""), fmt::format(", \"peer\": {}", line.peer));
+    }
+    return text;
 }
 
 }  // namespace fauxboard::host

@@ -15,21 +15,29 @@
 
 namespace fauxboard::host {
 
-/// One entry of a recording: a line of the wire, or something done to the machine.
+/// One entry of a recording: a line of the wire, a datagram, or something done to the machine.
 struct RecordedLine {
     enum class From : std::uint8_t {
-        board,   ///< the board said it to the screen
-        screen,  ///< the screen said it to the board
-        host,    ///< a command that came in over the board's USB port
-        world,   ///< done to the machine by hand: "filament in", "board reset"
-        usb,     ///< the board's reply over its USB port
+        board,    ///< the board said it to the screen
+        screen,   ///< the screen said it to the board
+        host,     ///< a command that came in over the board's USB port
+        world,    ///< done to the machine by hand: "filament in", "board reset"
+        usb,      ///< the board's reply over its USB port
+        network,  ///< a datagram to the board
+        module,   ///< a datagram from the board
     };
+    /// Whether it is a datagram, which is kept whole.
+    bool is_datagram() const { return from == From::network || from == From::module; }
+    /// What its words stand under: "line", "do" or "datagram".
+    const char* key() const { return from == From::world ? "do" : is_datagram() ? "datagram" : "line"; }
+
     printer::SimTime t{0};  ///< end of the line on the wire, from the start of the recording
     From from = From::board;
     std::string bytes;  ///< the line as it went over the wire, without its line end; of `world` the words
+    std::uint64_t peer = 0;  ///< of datagrams: who is at the other end, a number from 1
 };
 
-/// "board", "screen", "host", "world" or "usb".
+/// "board", "screen", "host", "world", "usb", "network" or "module".
 std::string_view from_name(RecordedLine::From from);
 
 /// A recording that cannot be read. what() is "FILE:LINE: what was found and what was expected".
@@ -41,6 +49,7 @@ class RecordingError : public std::runtime_error {
 /// Reads JSON lines, one entry each:
 ///     {"t": 16.451778, "from": "screen", "line": "N-0 M2134 FW:V1.02.xx*84"}
 ///     {"t": 135.5, "from": "world", "do": "filament in"}
+///     {"t": 140.5, "from": "network", "peer": 1, "datagram": "M28 box.ctb\r\n"}
 /// `t` is in seconds, bytes stand as the characters of the same number (0xFF is \u00ff), blank lines are
 /// skipped, keys other than these are left alone. A line of the file may have 64 KiB; memory does not grow
 /// with the file.

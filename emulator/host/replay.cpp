@@ -35,7 +35,7 @@ class Player {
     Player(std::shared_ptr<const behaviour::Profile> profile, const ReplayOptions& options)
         : keeper_(result_.notices),
           wire_(profile->line.baud),
-          board_(std::move(profile), printer::Services{}, {true, options.seed, &keeper_}) {}
+          board_(std::move(profile), options.services, {true, options.seed, &keeper_}) {}
 
     ReplayResult play(const std::vector<RecordedLine>& recording, SimTime tail);
 
@@ -64,6 +64,9 @@ void Player::take_output() {
         rest.remove_prefix(size);
     }
     board_.clear_output();
+    board_.take_datagrams([this](std::uint64_t peer, std::string_view bytes) {
+        result_.lines.push_back({board_.time() + shift_, From::module, std::string(bytes), peer});
+    });
 }
 
 void Player::advance(SimTime now) {
@@ -92,6 +95,10 @@ void Player::do_entry(SimTime now, const RecordedLine& entry) {
     switch (entry.from) {
         case From::board:
         case From::usb:
+        case From::module:
+            break;
+        case From::network:
+            board_.receive_datagram(now, entry.peer, entry.bytes);
             break;
         case From::screen:
             board_.receive(now, entry.bytes + "\r\n");

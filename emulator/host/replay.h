@@ -20,6 +20,7 @@ struct ReplayOptions {
     std::uint64_t seed = 1;
     /// How long the board is listened to after the last entry of the recording.
     printer::SimTime tail{1'000'000};
+    printer::Services services{};  ///< the disks that the board has; what its recording writes, goes there
 };
 
 struct ReplayNotice {
@@ -35,8 +36,8 @@ struct ReplayResult {
 };
 
 /// Does to a fresh board in virtual time what the recording says was done to the recorded one: screen and
-/// host lines come in, and things are done to the machine, at their times. What the recorded board said is
-/// not looked at, but for one thing:
+/// host lines and datagrams come in, and things are done to the machine, at their times. What the recorded
+/// board said is not looked at, but for one thing:
 ///
 /// The recording is taken to begin with the board's power-on. The board is switched on so that its first line
 /// ends when the recorded board's first line did (0 in most recordings); without a recorded board line, at 0.

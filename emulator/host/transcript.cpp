@@ -204,6 +204,7 @@ TranscriptEntry TranscriptReader::parse_json() {
         out.t = recorded->t;
         out.from = recorded->from;
         out.bytes = std::move(recorded->bytes);
+        out.peer = recorded->peer;
         return out;
     } catch (const RecordingError& error) {
         std::string_view sentence = error.what();

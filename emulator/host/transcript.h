@@ -39,14 +39,16 @@ struct TranscriptEntry {
     std::optional<printer::SimTime> t;  ///< json: as it stands there; clock: since midnight of the first day
     std::string clock;                  ///< as it stands there, cut to microseconds
     RecordedLine::From from = RecordedLine::From::board;
-    bool guessed = false;  ///< `from` was: the form does not say it
-    std::string bytes;     ///< the line without its end; of `world` the words; of `bad` how it starts
-    std::string problem;   ///< of `bad`: what was found and what was expected
+    bool guessed = false;    ///< `from` was: the form does not say it
+    std::string bytes;       ///< the line without its end; of `world` the words; of `bad` how it starts
+    std::uint64_t peer = 0;  ///< of datagrams, which are kept whole
+    std::string problem;     ///< of `bad`: what was found and what was expected
 
     /// The way that the line went.
     protocol::Direction direction() const {
-        return from == RecordedLine::From::board ? protocol::Direction::to_screen
-                                                 : protocol::Direction::to_board;
+        return from == RecordedLine::From::board || from == RecordedLine::From::module
+                   ? protocol::Direction::to_screen
+                   : protocol::Direction::to_board;
     }
 };
 

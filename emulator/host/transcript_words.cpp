@@ -9,6 +9,7 @@
 
 #include "emulator/behaviour/wire_text.h"
 #include "emulator/host/line_log.h"
+#include "protocol/chitu_chunk.h"
 #include "protocol/framing.h"
 
 namespace fauxboard::host {
@@ -89,10 +90,29 @@ std::string_view head_of(From from) {
             return "host → board";
         case From::usb:
             return "board → host";
+        case From::network:
+            return "network → board";
+        case From::module:
+            return "board → network";
         case From::world:
             break;
     }
     return "world";
+}
+
+/// What a datagram says, its end left off. For a piece of a file, which says nothing, `piece` tells it.
+std::string datagram_line(const TranscriptEntry& entry, std::string& piece) {
+    const protocol::Chunk chunk = protocol::read_chunk(entry.bytes);
+    if (chunk.fault == protocol::ChunkFault::no_chunk) {
+        return entry.bytes.substr(0, entry.bytes.find_last_not_of(std::string_view("\0\r\n ", 4)) + 1);
+    }
+    piece = fmt::format("piece of a file: {} bytes from {} on{}", chunk.payload.size(), chunk.offset,
+                        chunk.fault == protocol::ChunkFault::none ? "" : "; damaged");
+    return fmt::format("({} bytes)", entry.bytes.size());
+}
+
+bool is_datagram(const TranscriptEntry& entry) {
+    return entry.from == From::network || entry.from == From::module;
 }
 
 /// explain() says what is wrong with the frame and which fields are unknown; the rest is said behind it.
@@ -179,6 +199,11 @@ JudgedLine judge(TranscriptEntry entry, const std::vector<LineJudge>& judges) {
     out.entry = std::move(entry);
     if (out.entry.form == Form::bad) {
         out.marks.push_back({"unreadable", out.entry.problem});
+    } else if (is_datagram(out.entry)) {
+        const std::string line = datagram_line(out.entry, out.piece);
+        if (out.piece.empty()) {
+            out.decoded = protocol::decode_line(without_nuls(line), out.entry.direction());
+        }
     } else if (out.entry.from != From::world && out.entry.from != From::usb) {
         out.decoded = protocol::decode_line(without_nuls(out.entry.bytes), out.entry.direction());
         for (const LineJudge& each : judges) {
@@ -200,11 +225,13 @@ std::string text_line(const JudgedLine& line) {
         text += fmt::format("{:>15}  ", time_text(entry));
     }
     text += fmt::format("{:<14}  ", head_of(entry.from));
-    const std::string words = words_of(line);
+    std::string piece;
+    const std::string bytes = is_datagram(entry) ? datagram_line(entry, piece) : entry.bytes;
+    const std::string words = piece.empty() ? words_of(line) : piece;
     if (words.empty()) {
-        return text + printable(entry.bytes) + '\n';
+        return text + printable(bytes) + '\n';
     }
-    return text + fmt::format("{:<{}}  {}\n", printable(entry.bytes), words_column, words);
+    return text + fmt::format("{:<{}}  {}\n", printable(bytes), words_column, words);
 }
 
 std::string json_line(const JudgedLine& line) {
@@ -223,7 +250,14 @@ std::string json_line(const JudgedLine& line) {
         out["clock"] = entry.clock;
     }
     out["from"] = from_name(entry.from);
-    out[entry.from == From::world ? "do" : "line"] = behaviour::from_wire(entry.bytes);
+    const RecordedLine as_recorded{{}, entry.from, {}, entry.peer};
+    if (as_recorded.is_datagram()) {
+        out["peer"] = entry.peer;
+    }
+    out[as_recorded.key()] = behaviour::from_wire(entry.bytes);
+    if (!line.piece.empty()) {
+        out["words"] = line.piece;
+    }
     if (line.decoded) {
         add_decoded(out, *line.decoded);
         Json marks = Json::array();

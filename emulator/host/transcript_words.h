@@ -20,7 +20,8 @@ struct LineMark {
 /// One line of a transcript, taken apart and judged.
 struct JudgedLine {
     TranscriptEntry entry;
-    std::optional<protocol::DecodedLine> decoded;  ///< not of `world` and `bad` entries
+    std::optional<protocol::DecodedLine> decoded;  ///< not of `world` and `bad` entries, nor of pieces
+    std::string piece;  ///< of a datagram that is a piece of a file: what it brings
     std::vector<LineMark> marks;
 };
 

@@ -35,6 +35,14 @@ constexpr std::array jam_parameters{
 constexpr std::array cold_parameters{
     BreakdownParameter{"below", celsius, 300, 170, 500, "the nozzle is called too cold below this"}};
 
+constexpr std::array<std::string_view, 2> ways{"piece", "answer"};
+constexpr std::array lost_parameters{
+    BreakdownParameter{"what", choice, 0, 0, 1,
+                       "a piece of an upload, or what the board answers to it; a block of a download is both",
+                       ways},
+    BreakdownParameter{"share", percent, 10, 1, 100, "how many of them"}};
+constexpr std::array share_only{BreakdownParameter{"share", percent, 10, 1, 100, "how many of them"}};
+
 template <EventId... Ids>
 constexpr std::array raises{Ids...};
 constexpr const auto& heater_events = raises<EventId::heater_nozzle_abnormal, EventId::heater_bed_abnormal>;
@@ -58,6 +66,11 @@ void trouble(Printer& p, Values v, F change) {
 
 void file_trouble(Printer& p, Volume::Kind kind) {
     p.storage.set_file_trouble(kind);
+}
+
+double& lost_share(Printer& p, Values v) {
+    Transfer::Trouble& trouble = p.transfer.trouble;
+    return v[0] == 0 ? trouble.lost : trouble.answers_lost;
 }
 
 void ask_for_user(Printer& p, Values) {
@@ -240,6 +253,36 @@ constexpr std::array<BreakdownInfo, breakdown_count> table{{
      },
      [](Printer& p, Values) { p.request_reset(); },
      [](const Printer& p, Values) { return !p.hung(); }},
+    {BreakdownId::chunk_lost,
+     "chunk_lost",
+     "the network loses pieces of files, up or down, or the answers to them: their sender has to notice",
+     {},
+     "",
+     lost_parameters,
+     never,
+     [](Printer& p, Values v) { lost_share(p, v) = v[1] / 100; },
+     [](Printer& p, Values v) { lost_share(p, v) = 0; },
+     nullptr},
+    {BreakdownId::chunk_damaged,
+     "chunk_damaged",
+     "pieces of files arrive damaged: the board asks for one again (resend), a client has to find it out",
+     {},
+     "",
+     share_only,
+     never,
+     [](Printer& p, Values v) { p.transfer.trouble.damaged = v[0] / 100; },
+     [](Printer& p, Values) { p.transfer.trouble.damaged = 0; },
+     nullptr},
+    {BreakdownId::chunk_repeated,
+     "chunk_repeated",
+     "pieces of files arrive twice: the board does not write the second (resend), a client must not",
+     {},
+     "",
+     share_only,
+     never,
+     [](Printer& p, Values v) { p.transfer.trouble.repeated = v[0] / 100; },
+     [](Printer& p, Values) { p.transfer.trouble.repeated = 0; },
+     nullptr},
 }};
 
 consteval bool ordered() {

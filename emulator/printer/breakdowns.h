@@ -39,6 +39,9 @@ enum class BreakdownId : std::uint8_t {
     hang,
     board_reset,
     brown_out,
+    chunk_lost,
+    chunk_damaged,
+    chunk_repeated,
     count_  // not a breakdown
 };
 

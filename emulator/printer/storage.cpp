@@ -239,7 +239,11 @@ bool Storage::path_for_writing(std::string_view name, std::string& path) const {
     if (!usable(chosen_) || name.ends_with('/') || !clean_path({}, name, path) || path.empty()) {
         return false;
     }
-    const Volume::Kind kind = volumes_[index(chosen_)]->look(path, bytes);
+    const Volume& volume = *volumes_[index(chosen_)];
+    if (std::string folder(parent(path)); ignore_case_ && !folder.empty() && respell(volume, folder)) {
+        path = folder + "/" + std::string(last_part(path));
+    }
+    const Volume::Kind kind = volume.look(path, bytes);
     return kind == Volume::Kind::missing || kind == Volume::Kind::file;
 }
 

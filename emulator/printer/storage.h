@@ -122,7 +122,7 @@ class Storage {
     /// Removes a file of the chosen disk. False when there is none, or it cannot be.
     bool remove(std::string_view name);
     /// Where a file of this name would be written, below the root. False for a name that cannot be a file's:
-    /// it would leave the root, say, or is a folder's.
+    /// it would leave the root, say, or is a folder's. The file's own name stays as it is spelled.
     bool path_for_writing(std::string_view name, std::string& path) const;
 
     /// The disk that listing() would show; nullptr when there is none to show, or when it may change.

@@ -1,6 +1,7 @@
 #include "emulator/printer/transfer.h"
 
 #include <array>
+#include <utility>
 
 #include "emulator/printer/storage.h"
 
@@ -23,6 +24,7 @@ void Transfer::power_on() {
     asker = serial_line;
     last_block.size = 0;
     path_.clear();
+    replaced_.clear();
     existed_ = false;
     position_ = bytes_ = 0;
 }
@@ -57,7 +59,15 @@ bool Transfer::may_go_on(SimTime now, Peer peer, Mode mode) {
     return true;
 }
 
-bool Transfer::upload(SimTime now, Peer peer, std::string_view name) {
+bool Transfer::look_for(std::string_view name) {
+    const Storage::Found found = storage_.find(name);
+    // find() also takes a checksum off a name; that one is another file.
+    const bool there = found.kind == Volume::Kind::file && found.path.size() == path_.size();
+    replaced_ = there ? found.path : std::string();
+    return there;
+}
+
+bool Transfer::upload(SimTime now, Peer peer, std::string_view name, std::string_view in_use) {
     asked_ = name;
     if (!may_begin(now, peer)) {
         return false;
@@ -71,8 +81,10 @@ bool Transfer::upload(SimTime now, Peer peer, std::string_view name) {
     if (!storage_.path_for_writing(name, path_)) {
         return say(Outcome::no_name);
     }
-    std::uint64_t bytes = 0;
-    existed_ = disk->look(path_, bytes) == Volume::Kind::file;
+    existed_ = look_for(name);
+    if (existed_ && replaced_ == in_use) {
+        return say(Outcome::in_use);
+    }
     if (!disk->create(beside())) {
         return say(Outcome::write_failed);
     }
@@ -99,14 +111,21 @@ bool Transfer::piece(SimTime now, Peer peer, bool intact, std::uint64_t offset, 
     return say(Outcome::done);
 }
 
-bool Transfer::finish(SimTime now, Peer peer) {
+bool Transfer::finish(SimTime now, Peer peer, std::string_view in_use) {
     if (!may_go_on(now, peer, Mode::upload)) {
         return false;
     }
     Volume* const disk = storage_.writable(disk_);
+    if (!replaced_.empty() && replaced_ == in_use) {  // its print was begun meanwhile
+        drop();
+        return say(Outcome::in_use);
+    }
     if (disk == nullptr || !disk->rename(beside(), path_)) {
         drop();
         return say(Outcome::write_failed);
+    }
+    if (!replaced_.empty() && replaced_ != path_) {
+        disk->remove(replaced_);  // the same name to the board, spelled otherwise
     }
     mode_ = Mode::none;
     return say(Outcome::done);
@@ -182,9 +201,22 @@ bool Transfer::close(SimTime now, Peer peer) {
     return say(Outcome::done);
 }
 
+Transfer::Mishap Transfer::Trouble::mishap(double draw) const {
+    for (const auto& [share, what] :
+         {std::pair{lost, Mishap::lost}, std::pair{answers_lost, Mishap::answer_lost},
+          std::pair{damaged, Mishap::damaged}, std::pair{repeated, Mishap::repeated}}) {
+        if (draw < share) {
+            return what;
+        }
+        draw -= share;
+    }
+    return Mishap::none;
+}
+
 std::string_view to_string(Transfer::Outcome outcome) {
-    constexpr std::array<std::string_view, 9> names{"done",    "busy",   "not_open",     "no_name", "no_disk",
-                                                    "missing", "resend", "write_failed", "at_end"};
+    constexpr std::array<std::string_view, 10> names{"done",         "busy",    "in_use",  "not_open",
+                                                     "no_name",      "no_disk", "missing", "resend",
+                                                     "write_failed", "at_end"};
     return names[static_cast<std::size_t>(outcome)];
 }
 

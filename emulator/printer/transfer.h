@@ -27,6 +27,7 @@ class Transfer {
     enum class Outcome : std::uint8_t {
         done,
         busy,      ///< another one's file is open, or an upload of the same one
+        in_use,    ///< the file is being printed
         not_open,  ///< there is nothing to go on with
         no_name,   ///< a name that cannot be a file's
         no_disk,
@@ -46,12 +47,14 @@ class Transfer {
     /// Forgets what was open; what was written of it stays on the disk, as when the power goes.
     void power_on();
 
-    /// M28. Again by its owner before the first piece, it is as if the first had been lost.
-    bool upload(SimTime now, Peer peer, std::string_view name);
+    /// M28. Again by its owner before the first piece, it is as if the first had been lost. A file of that
+    /// name is replaced when it is finished, also one that is spelled otherwise where the disk does not tell
+    /// cases apart. `in_use` is the path of a file that must stay, empty for none: also for finish().
+    bool upload(SimTime now, Peer peer, std::string_view name, std::string_view in_use = {});
     /// A piece; not `intact` when its checksum was wrong.
     bool piece(SimTime now, Peer peer, bool intact, std::uint64_t offset, std::string_view bytes);
     /// M29: the upload is whole and takes its name. It is over even when that fails.
-    bool finish(SimTime now, Peer peer);
+    bool finish(SimTime now, Peer peer, std::string_view in_use = {});
     /// M6032.
     bool download(SimTime now, Peer peer, std::string_view name);
     /// M3001, M3000 I: where the next block begins, to the byte.
@@ -62,6 +65,21 @@ class Transfer {
     bool remove(std::string_view name);
     /// M22: what is open is closed; of an upload nothing remains.
     bool close(SimTime now, Peer peer);
+
+    /// What may become of a piece of an upload, or of a block of a download, on its way.
+    enum class Mishap : std::uint8_t { none, lost, answer_lost, damaged, repeated };
+    /// A network that misbehaves on purpose: how many of them meet with what, 0 to 1 each. A block is the
+    /// answer itself.
+    struct Trouble {
+        double lost = 0;
+        double answers_lost = 0;
+        double damaged = 0;
+        double repeated = 0;
+        bool any() const { return lost > 0 || answers_lost > 0 || damaged > 0 || repeated > 0; }
+        /// For a draw of 0 up to but not 1. Shares of more than 1 together: the first ones win.
+        Mishap mishap(double draw) const;
+    };
+    Trouble trouble;  ///< outlives a reset of the board
 
     Outcome outcome = Outcome::done;
     /// Who sent the request that is being carried out; the board says it. 0 is the serial line.
@@ -97,6 +115,8 @@ class Transfer {
     bool may_go_on(SimTime now, Peer peer, Mode mode);
     void drop();
     std::string beside() const;
+    /// Whether the disk has the file already, and where.
+    bool look_for(std::string_view name);
 
     Storage& storage_;
     Mode mode_ = Mode::none;
@@ -106,6 +126,7 @@ class Transfer {
     std::string name_;
     std::string asked_;
     std::string path_;
+    std::string replaced_;  ///< path of the file that the upload takes the place of
     bool existed_ = false;
     std::uint64_t position_ = 0;
     std::uint64_t bytes_ = 0;

@@ -63,7 +63,9 @@ std::string Player::explain(const Trigger& trigger) const {
         return last == talk_.rend() ? "nothing happened lately"
                                     : fmt::format("the last that happened was {}", last->text);
     }
-    const char* who = from == Talk::From::board ? "the board said" : "the screen asked";
+    const std::string who = from == Talk::From::board
+                                ? std::string("the board said")
+                                : fmt::format("the {} asked", scenario_->cast.profile->line.peer);
     return last == talk_.rend() ? fmt::format("{} nothing lately", who)
                                 : fmt::format("the last that {} was \"{}\"", who, last->text);
 }

@@ -82,11 +82,11 @@ struct Step {
     bool next = false;                                     ///< the very next line has to be it
     bool now = false;                                      ///< it has to be so at once
 
-    // Acts: do, set, send, request, press, fault, clear, note.
+    // Acts: do, set, send, request, press, fault, clear, note, upload.
     std::vector<behaviour::ActionCall> calls;
     std::optional<behaviour::Send> frame;
-    std::string bytes;  ///< for the line
-    std::string text;   ///< a button, a fault's name, a note
+    std::string bytes;  ///< for the line; of a file
+    std::string text;   ///< a button, a fault's name, a note, a file's name
     std::optional<fault::FaultSpec> fault;
 
     // Blocks: repeat, together, include, never with steps.

@@ -74,6 +74,7 @@ namespace rows {
 std::span<const StepKind> act_steps();
 std::span<const StepKind> watch_steps();
 std::span<const StepKind> block_steps();
+std::span<const StepKind> upload_steps();
 }  // namespace rows
 
 }  // namespace fauxboard::script

@@ -18,6 +18,12 @@ using behaviour::ObjectReader;
 
 constexpr std::size_t most_raw_bytes = 2048;
 
+/// A line as the main line of the board has them.
+std::string framed(Compiler& c, const std::string& line) {
+    const bool frames = c.shared().cast.profile->line.framing == behaviour::Framing::smartto;
+    return frames ? protocol::frame(line) : line + "\r\n";
+}
+
 // do, set
 // -----------------------------------------------------------------------------------------------
 
@@ -77,7 +83,7 @@ void compile_send(Compiler& c, const Json& value, ObjectReader& reader, Step& ou
     } else if (raw != nullptr) {
         out.bytes = c.line(*raw, inner.pointer("raw"), most_raw_bytes, false);
     } else {
-        out.bytes = protocol::frame(c.line(*line, inner.pointer("line"), protocol::max_line_bytes, true));
+        out.bytes = framed(c, c.line(*line, inner.pointer("line"), protocol::max_line_bytes, true));
     }
 }
 
@@ -93,7 +99,7 @@ std::string run_send(Acting& acting, const Step& step) {
 }
 
 void compile_request(Compiler& c, const Json& value, ObjectReader& reader, Step& out) {
-    out.bytes = protocol::frame(c.line(value, reader.pointer("request"), protocol::max_line_bytes, true));
+    out.bytes = framed(c, c.line(value, reader.pointer("request"), protocol::max_line_bytes, true));
     out.words = "request " + value.dump();
 }
 

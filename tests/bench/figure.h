@@ -37,6 +37,7 @@ std::vector<Benchmark> in_process_benchmarks();
 std::vector<Benchmark> print_benchmarks();
 std::vector<Benchmark> pty_benchmarks();
 std::vector<Benchmark> tap_benchmarks();
+std::vector<Benchmark> resin_benchmarks();
 
 double median(std::vector<double> values);
 

@@ -104,18 +104,28 @@ TEST_CASE("chitu: the replies of a Saturn") {
     run_file("chitu-saturn");
 }
 
-TEST_CASE("chitu: the vectors hold every code of the list of codes that goes over a serial line") {
+TEST_CASE("chitu: the vectors hold every code of the list of codes, and all that clients send beside") {
     const ChituVectors file = load_chitu_vectors("chitu");
     std::set<std::string> seen;
     for (const ChituVector& vector : file.vectors) {
         seen.insert(vector.send.substr(0, vector.send.find_first_of(" \r\n")));
     }
+    // The list of codes, section by section in its order.
     for (const char* code :
-         {"M27",   "M114",   "M115",  "M4000", "M4001", "M4002", "M4006", "G0",    "G28",   "G29",   "G90",
-          "G91",   "M24",    "M25",   "M33",   "M106",  "M112",  "M6030", "M20",   "M30",   "M8004", "M8005",
-          "M8006", "M8007",  "M8008", "M8010", "M8013", "M8015", "M8016", "M8026", "M8029", "M8030", "M8034",
-          "M8070", "M8083",  "M8084", "M8085", "M8087", "M8093", "M8489", "M8500", "M8512", "M8513", "M9003",
-          "M9005", "M99999", "M23",   "M4004", "M5000", "M5002", "M110"}) {
+         {"M27",   "M110",  "M114",  "M115",  "M4000", "M4001", "M4002", "M4006",  // information
+          "G0",    "G28",   "G29",   "G90",   "G91",                               // motion
+          "M24",   "M25",   "M33",   "M106",  "M112",  "M6030",                    // print
+          "M20",   "M28",   "M29",   "M30",                                        // files
+          "M8004", "M8005", "M8006", "M8007", "M8008", "M8010", "M8013", "M8015",  "M8016",
+          "M8026", "M8029", "M8030", "M8034", "M8070", "M8083", "M8084", "M8085",  "M8087",
+          "M8093", "M8489", "M8500", "M8512", "M8513", "M9003", "M9005", "M99999",  // settings
+          "M23",   "M4004", "M5000", "M5002",                                       // of unknown use
+          "M8020", "M8021", "M8028", "M8071"}) {                                    // in its backup file
+        CAPTURE(code);
+        CHECK(seen.count(code) == 1);
+    }
+    for (const char* code : {"G1", "M18", "M21", "M22", "M84", "M104", "M105", "M107", "M140", "M300",
+                             "M3000", "M3001", "M4003", "M4012", "M6032", "M8510", "M8511", "syn"}) {
         CAPTURE(code);
         CHECK(seen.count(code) == 1);
     }

@@ -729,12 +729,29 @@ std::vector<FaultCase> board() {
     };
 }
 
+/// These boards take no files over a network: a print knows nothing of it.
+std::vector<FaultCase> network() {
+    std::vector<FaultCase> rows;
+    for (const char* spec : {"chunk_lost:share=100", "chunk_damaged:share=100", "chunk_repeated:share=100"}) {
+        FaultCase row;
+        row.title = "a network that nobody uses";
+        row.spec = spec;
+        row.before = print;
+        row.during = a_while;
+        row.said = {"L3 PS:1"};
+        row.state = {{"job.status", 1}};
+        row.state_back = {{"job.status", 1}};
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
 }  // namespace
 
 std::span<const FaultCase> fault_cases() {
     static const std::vector<FaultCase> all = [] {
         std::vector<FaultCase> rows;
-        for (const auto& part : {filament_and_card(), heaters(), motion(), board()}) {
+        for (const auto& part : {filament_and_card(), heaters(), motion(), board(), network()}) {
             rows.insert(rows.end(), part.begin(), part.end());
         }
         return rows;

@@ -43,7 +43,7 @@ std::size_t check_all(std::vector<host::TranscriptReader> readers) {
         const bool bad = line.entry.form == TranscriptEntry::Form::bad;
         require(bad != line.entry.problem.empty(), "a bad line without a sentence, or a good one with");
         require(line.decoded || bad || line.entry.from == host::RecordedLine::From::world ||
-                    line.entry.from == host::RecordedLine::From::usb,
+                    line.entry.from == host::RecordedLine::From::usb || !line.piece.empty(),
                 "a line was not taken apart");
         require(one_line(host::text_line(line)), "words that are no line of text");
         const std::string json = host::json_line(line);

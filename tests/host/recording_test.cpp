@@ -65,6 +65,31 @@ TEST_CASE("recording: what is written reads back, byte by byte") {
           "{\"t\": 0.000500, \"from\": \"world\", \"do\": \"board reset\"}\n");
 }
 
+TEST_CASE("recording: datagrams are kept whole, with who is at the other end") {
+    std::string bytes;
+    for (int c = 0; c < 256; ++c) {
+        bytes += static_cast<char>(c);
+    }
+    for (const From from : {From::network, From::module}) {
+        RecordedLine written{SimTime{2'500'000}, from, bytes};
+        written.peer = 7;
+        const std::string text = recording_line(written);
+        CHECK(text.starts_with("{\"t\": 2.500000, \"from\": \"" + std::string(from_name(from)) +
+                               "\", \"peer\": 7, \"datagram\": \""));
+        const auto lines = read(text);
+        REQUIRE(lines.size() == 1);
+        CHECK(lines[0].from == from);
+        CHECK(lines[0].bytes == bytes);
+        CHECK(lines[0].peer == 7);
+    }
+    CHECK_THROWS_WITH_AS(read("{\"t\": 0, \"from\": \"network\", \"datagram\": \"M20\"}"),
+                         "talk.jsonl:1: the key \"peer\" is missing", RecordingError);
+    CHECK_THROWS_AS(read("{\"t\": 0, \"from\": \"network\", \"peer\": 0, \"datagram\": \"M20\"}"),
+                    RecordingError);
+    CHECK_THROWS_AS(read("{\"t\": 0, \"from\": \"network\", \"peer\": 1, \"line\": \"M20\"}"),
+                    RecordingError);
+}
+
 TEST_CASE("recording: entries come out in the order of time") {
     const auto lines = read(
         "{\"t\": 2, \"from\": \"host\", \"line\": \"c\"}\n"
@@ -87,7 +112,7 @@ TEST_CASE("recording: a wrong line is told by file, line and what is wrong") {
     CHECK(error_of("{\"t\": 1e99, \"from\": \"board\", \"line\": \"x\"}").find("expected seconds") !=
           std::string::npos);
     CHECK(error_of("{\"t\": 0, \"from\": \"moon\", \"line\": \"x\"}") ==
-          "talk.jsonl:1: from: found \"moon\"; expected board, screen, host, world or usb");
+          "talk.jsonl:1: from: found \"moon\"; expected board, screen, host, world, usb, network or module");
     CHECK(error_of("{\"t\": 0, \"from\": \"world\", \"line\": \"x\"}") ==
           "talk.jsonl:1: the key \"do\" is missing");
     for (const char* bytes : {"\"\\u0100\"", "\"a\\nb\"", "7"}) {

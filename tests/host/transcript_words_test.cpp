@@ -88,6 +88,30 @@ TEST_CASE("as JSON: what is unknown, unframed or unreadable") {
     CHECK(bad.contains("problem"));
 }
 
+TEST_CASE("datagrams: requests in words, pieces of files as what they bring") {
+    const auto entry = [](const std::string& from, const std::string& datagram) {
+        return judged(R"({"t": 1, "from": ")" + from + R"(", "peer": 3, "datagram": ")" + datagram + "\"}");
+    };
+    const std::string request = text_line(entry("network", R"(M4002\u0000\u0000)"));
+    CHECK(request.find("network → board") != std::string::npos);
+    CHECK(request.find("M4002 ") != std::string::npos);
+    CHECK(request.find("version query") != std::string::npos);
+    CHECK(text_line(entry("module", R"(ok V4.3.3_LCDC\n)")).find("board → network") != std::string::npos);
+    // 'a' 'b' at 2: their XOR with the offset's bytes, and the mark
+    const std::string piece = text_line(entry("network", R"(ab\u0002\u0000\u0000\u0000\u0001\u0083)"));
+    CHECK(piece.find("(8 bytes)") != std::string::npos);
+    CHECK(piece.find("piece of a file: 2 bytes from 2 on\n") != std::string::npos);
+    const auto damaged = entry("network", R"(ac\u0002\u0000\u0000\u0000\u0001\u0083)");
+    CHECK(text_line(damaged).find("from 2 on; damaged") != std::string::npos);
+    CHECK(nlohmann::json::parse(json_line(damaged))["words"] ==
+          "piece of a file: 2 bytes from 2 on; damaged");
+    std::istringstream in(json_line(damaged));
+    const auto again = RecordingReader(in, "again").next();
+    REQUIRE(again);
+    CHECK(again->peer == 3);
+    CHECK(again->bytes == damaged.entry.bytes);
+}
+
 TEST_CASE("timed lines as JSON are a recording again") {
     const JudgedLine line = judged(R"({"t": 16.451778, "from": "screen", "line": "N-0 M23 \u00e4*1"})");
     std::istringstream in(json_line(line));

@@ -43,7 +43,7 @@ bool fits_step(const json& step) {
 
 TEST_CASE("schema: every shipped scenario fits") {
     for (const char* name : {"day-of-bad-luck", "leveling-session", "power-loss",
-                             "print-with-filament-change", "soak", "tour-of-pages"}) {
+                             "print-with-filament-change", "resin-stick-pulled", "soak", "tour-of-pages"}) {
         CAPTURE(name);
         CHECK(fits(json::parse(testing::shipped_scenario(name).text)));
     }

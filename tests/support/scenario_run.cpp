@@ -13,6 +13,7 @@
 #include "emulator/host/script_files.h"
 #include "emulator/host/script_host.h"
 #include "emulator/link/event_loop.h"
+#include "emulator/printer/memory_volume.h"
 // After event_loop.h, which see.
 #include <asio/executor_work_guard.hpp>
 
@@ -105,7 +106,7 @@ ScenarioRun play(const behaviour::SourceText& source, const ScenarioSetup& setup
     host::Observers observers;
     Writer writer(out.recording);
     observers.add(writer);
-    std::optional<printer::BuiltInVolume> card;
+    std::optional<printer::MemoryVolume> card;
     MemoryEeprom eeprom;
     printer::Services services;
     services.eeprom = &eeprom;
