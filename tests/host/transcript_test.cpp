@@ -71,7 +71,9 @@ TEST_CASE("a broken JSON line is one bad entry, with what was found and expected
         "not JSON\n{\"t\": 2, \"from\": \"board\", \"line\": \"b\"}");
     CHECK(all_bytes(entries) == "a|BAD|BAD|BAD|b|");
     CHECK(entries[1].problem == "not JSON; expected one JSON object a line");
-    CHECK(entries[2].problem == "from: found \"x\"; expected board, screen, host, world or usb");
+    CHECK(entries[2].problem ==
+          "from: found \"x\"; expected board, screen, host, world, usb, network "
+          "or module");
     CHECK(entries[3].problem == "no JSON object, in a recording of JSON lines");
     CHECK(entries[3].number == 4);
     CHECK(entries[3].bytes == "not JSON");
