@@ -22,7 +22,11 @@ std::uint64_t place(const Value& v) {
 }
 
 void upload(ActionContext& c, Args a) {
-    c.printer.transfer.upload(c.printer.now(), c.printer.transfer.asker, words(a[0]));
+    Transfer& transfer = c.printer.transfer;
+    if (!transfer.upload(c.printer.now(), transfer.asker, words(a[0])) &&
+        transfer.outcome == Transfer::Outcome::write_failed && c.printer.storage.fixed_volume() != nullptr) {
+        refuse(c, "the profile's own card can be read only; give a folder as the card with --sd");
+    }
 }
 
 void download(ActionContext& c, Args a) {
@@ -35,6 +39,10 @@ void block(ActionContext& c, Args a) {
     if (!a[0].is_number() || transfer.seek(c.printer.now(), transfer.asker, place(a[0]))) {
         transfer.block(c.printer.now(), transfer.asker, transfer.last_block.room, transfer.last_block.size);
     }
+}
+
+void remove(ActionContext& c, Args a) {
+    c.printer.transfer.remove(words(a[0]));
 }
 
 constexpr std::array name_args{ArgInfo{"name", text, false, "of the file, from the root of the disk on"}};
@@ -53,6 +61,7 @@ constexpr std::array table{
     ActionInfo{"transfer.download", "", "begins to give a file out (M6032)", name_args, download},
     ActionInfo{"transfer.block", "", "reads a block of it, for a frame with \"chunk\" (M3000, M3001)",
                block_args, block},
+    ActionInfo{"transfer.remove", "", "deletes a file of the chosen disk (M30)", name_args, remove},
     ActionInfo{
         "transfer.close",
         "",

@@ -54,6 +54,9 @@ class Observer {
     /// Something happened to the machine (see printer::events()); told before the profile's rules for it are
     /// carried out.
     virtual void on_event(SimTime /*now*/, printer::EventId /*event*/) {}
+    /// Something is done to the machine by world() or act(), in the words of behaviour::action_words(); told
+    /// before it is done.
+    virtual void on_world(SimTime /*now*/, std::string_view /*words*/) {}
 };
 
 struct Options {

@@ -38,11 +38,15 @@ void Recorder::on_sent(SimTime now, board::Channel channel, std::string_view lin
     }
 }
 
-void Recorder::write(SimTime now, std::string_view from, std::string_view line) {
+void Recorder::on_world(SimTime now, std::string_view words) {
+    write(now, from_name(RecordedLine::From::world), words, "do");
+}
+
+void Recorder::write(SimTime now, std::string_view from, std::string_view line, std::string_view key) {
     if (!fd_) {
         return;
     }
-    const std::string text = recording_line(now, from, "line", line);
+    const std::string text = recording_line(now, from, key, line);
     std::size_t done = 0;
     while (done < text.size()) {
         const ssize_t count = ::write(fd_.get(), text.data() + done, text.size() - done);

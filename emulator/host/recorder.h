@@ -9,7 +9,8 @@
 
 namespace fauxboard::host {
 
-/// Writes every line of the wire to a recording (see recording.h), each at once, so that a kill loses none.
+/// Writes every line of the wire, and what is done to the machine by hand, to a recording (see recording.h),
+/// each at once, so that a kill loses none.
 class Recorder final : public LiveObserver {
   public:
     /// Told once, when the recording had to end early: a full disk ends the recording, not the board.
@@ -22,12 +23,13 @@ class Recorder final : public LiveObserver {
                      board::Verdict verdict) override;
     void on_sent(SimTime now, board::Channel channel, std::string_view line) override;
     void on_notice(SimTime, board::Level, std::string_view) override {}
+    void on_world(SimTime now, std::string_view words) override;
     void on_link(SimTime, link::LinkState, std::string_view) override {}
 
     std::uint64_t lines() const { return lines_; }
 
   private:
-    void write(SimTime now, std::string_view from, std::string_view line);
+    void write(SimTime now, std::string_view from, std::string_view line, std::string_view key = "line");
     void give_up(SimTime now, int error, std::size_t torn);
 
     std::string file_;
