@@ -22,6 +22,7 @@ constexpr std::string_view not_said_by_its_board = "L18 P26 S15";
 struct A30 {
     screen::Screen screen{host::load_screen_by_name("geeetech-a30")};
     SimTime start{0};
+    SimTime now{0};
     std::size_t lines = 0;
 
     A30() {
@@ -41,10 +42,16 @@ struct A30 {
             const std::size_t mark = line.find(" < ");
             if (mark != std::string::npos && line.find_first_not_of("0123456789") == mark &&
                 line.find(but) == std::string::npos) {
-                screen.receive(start + SimTime{std::atoll(line.c_str())}, line.substr(mark + 3) + "\r\n");
+                now = start + SimTime{std::atoll(line.c_str())};
+                screen.receive(now, line.substr(mark + 3) + "\r\n");
                 screen.clear_output();
                 ++lines;
             }
+        }
+        for (int i = 0; i < 10; ++i) {  // it takes what came last as well
+            now += SimTime{100'000};
+            screen.advance(now);
+            screen.clear_output();
         }
     }
     std::string crashes() const {
