@@ -1,8 +1,8 @@
 // A whole board, fed arbitrary bytes at arbitrary times.
 //
 // The input is a script: two digits, then one step a line. The first digit adds up 1 (no pacing), 2 (run it
-// again byte by byte: the answers must be the same), 4 (with an observer), 8 (a card that can be written to,
-// and a host that hears); the second chooses the profile. Steps:
+// again byte by byte: the answers must be the same), 4 (with an observer), 8 (a card that can be
+// written to); the second chooses the profile. Steps:
 //   s M115      a request from the screen, framed rightly
 //   r ~M115|    bytes from the screen as they are: ~ is LF, ` is CR, ^ is NUL, | is CR LF
 //   h M105~     the same from the USB side
@@ -86,7 +86,6 @@ class Run {
         : split_(split),
           board_(shipped_profile(profiles[profile % profiles.size()]), services((mode & 8U) != 0),
                  {(mode & 1U) == 0, 7, (mode & 4U) != 0 ? &witness_ : nullptr}) {
-        board_.connect(board::Channel::host, (mode & 8U) != 0);
         board_.power_on(now_);
     }
 
