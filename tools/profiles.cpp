@@ -1,5 +1,5 @@
-// `fauxboard profiles`: the boards that `run --profile` and the touch screens that `screen --screen` know by
-// name.
+// `fauxboard profiles`: the boards that `run --profile`, the touch screens that `screen --screen` and the
+// scenarios that `run --script` know by name.
 
 #include <fmt/format.h>
 
@@ -13,6 +13,7 @@
 
 #include "emulator/host/profile_files.h"
 #include "emulator/host/screen_files.h"
+#include "emulator/host/script_files.h"
 #include "tools/report.h"
 
 namespace fauxboard::tools {
@@ -21,7 +22,7 @@ namespace {
 using host::ProfileEntry;
 
 struct Listed {
-    std::string_view kind;  ///< what it is a profile of: "board" or "screen"
+    std::string_view kind;  ///< what it is: "board", "screen" or "scenario"
     ProfileEntry entry;
 };
 
@@ -32,6 +33,9 @@ std::vector<Listed> everything() {
     }
     for (ProfileEntry& entry : host::list_screens()) {
         out.push_back({"screen", std::move(entry)});
+    }
+    for (ProfileEntry& entry : host::list_scripts()) {
+        out.push_back({"scenario", std::move(entry)});
     }
     return out;
 }
@@ -47,9 +51,9 @@ std::string table(const std::vector<Listed>& list) {
         title = std::max(title, one.entry.title.size());
     }
     std::string text =
-        fmt::format("{:<6}  {:<{}}  {:<{}}  {}\n", "KIND", "NAME", name, "TITLE", title, "FILE");
+        fmt::format("{:<8}  {:<{}}  {:<{}}  {}\n", "KIND", "NAME", name, "TITLE", title, "FILE");
     for (const Listed& one : list) {
-        text += fmt::format("{:<6}  {:<{}}  {:<{}}  {}\n", one.kind, one.entry.name, name, one.entry.title,
+        text += fmt::format("{:<8}  {:<{}}  {:<{}}  {}\n", one.kind, one.entry.name, name, one.entry.title,
                             title, one.entry.file.string());
     }
     return text;
@@ -69,7 +73,8 @@ std::string json(const std::vector<Listed>& list) {
 }  // namespace
 
 void add_profiles(CLI::App& app, ExitCode& exit) {
-    CLI::App* command = app.add_subcommand("profiles", "List the boards and the screens that there are");
+    CLI::App* command =
+        app.add_subcommand("profiles", "List the boards, the screens and the scenarios that there are");
     const auto as_json = std::make_shared<bool>(false);
     command->add_flag("--json", *as_json, "As a JSON array");
     command->callback([as_json, &exit] {

@@ -28,7 +28,11 @@ std::string_view in_use(const printer::Printer& p) {
 }
 
 void upload(ActionContext& c, Args a) {
-    c.printer.transfer.upload(c.printer.now(), c.printer.transfer.asker, words(a[0]), in_use(c.printer));
+    Transfer& transfer = c.printer.transfer;
+    if (!transfer.upload(c.printer.now(), transfer.asker, words(a[0]), in_use(c.printer)) &&
+        transfer.outcome == Transfer::Outcome::write_failed && c.printer.storage.fixed_volume() != nullptr) {
+        refuse(c, "the profile's own card can be read only; give a folder as the card with --sd");
+    }
 }
 
 void finish(ActionContext& c, Args) {
@@ -47,6 +51,10 @@ void block(ActionContext& c, Args a) {
     }
 }
 
+void remove(ActionContext& c, Args a) {
+    c.printer.transfer.remove(words(a[0]));
+}
+
 constexpr std::array name_args{ArgInfo{"name", text, false, "of the file, from the root of the disk on"}};
 constexpr std::array block_args{
     ArgInfo{"offset", number, false, "byte it begins at; if left out, the next one"}};
@@ -58,6 +66,7 @@ constexpr std::array table{
     ActionInfo{"transfer.download", "", "begins to give a file out (M6032)", name_args, download},
     ActionInfo{"transfer.block", "", "reads a block of it, for a frame with \"chunk\" (M3000, M3001)",
                block_args, block},
+    ActionInfo{"transfer.remove", "", "deletes a file of the chosen disk (M30)", name_args, remove},
     ActionInfo{
         "transfer.close",
         "",

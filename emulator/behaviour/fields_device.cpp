@@ -101,6 +101,9 @@ constexpr std::array table{
           [](const Printer& p) { return p.host.resends; }),
     shown("host.busy", boolean, "", "a command of the USB side is being carried out",
           [](const Printer& p) { return p.host.running(); }),
+    shown("host.writing", boolean, "",
+          "lines of the USB side are written to a file (M28) and not carried out",
+          [](const Printer& p) { return p.host.writing(); }),
 
     plain("screen.known", boolean, "", 0, 1, "the screen has told its firmware since power-on",
           FAUXBOARD_PLACE(screen.known)),

@@ -28,7 +28,7 @@ constexpr std::array table{
     shown("transfer.bytes", integer, "bytes", "size of the file that is downloaded",
           [](const Printer& p) { return p.transfer.bytes(); }),
     shown("transfer.by_network", boolean, "", "the request that is carried out came as a datagram",
-          [](const Printer& p) { return p.transfer.asker != Transfer::serial_line; }),
+          [](const Printer& p) { return p.transfer.by_network(); }),
 };
 
 }  // namespace

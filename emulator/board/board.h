@@ -58,6 +58,9 @@ class Observer {
     /// with Channel::network; pieces of files are not.
     virtual void on_datagram(SimTime /*now*/, std::uint64_t /*peer*/, bool /*to_board*/,
                              std::string_view /*bytes*/) {}
+    /// Something is done to the machine by world() or act(), in the words of behaviour::action_words(); told
+    /// before it is done.
+    virtual void on_world(SimTime /*now*/, std::string_view /*words*/) {}
 };
 
 struct Options {

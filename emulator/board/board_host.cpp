@@ -100,7 +100,12 @@ void Board::run_host() {
         const std::string_view command(line.data(), front.copy(line.data(), line.size()));
         host_inbox_.pop();  // before it is executed: a reset empties the queue
         host.begin(command, time_);
-        execute(Channel::host, command);
+        if (!host.write(command, time_)) {
+            machine_.transfer.asker = printer::Transfer::usb_side;
+            execute(Channel::host, command);
+            machine_.transfer.asker = printer::Transfer::serial_line;
+            host.follow_transfer();
+        }
         settle();
     }
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "emulator/behaviour/action_words.h"
 #include "emulator/board/board.h"
 
 namespace fauxboard::board {
@@ -40,6 +41,9 @@ bool Board::world(SimTime now, std::string_view phrase) {
 std::string Board::act(SimTime now, const behaviour::ActionCall& call) {
     catch_up(now);
     machine_.advance(time_);
+    if (options_.observer != nullptr) {
+        options_.observer->on_world(time_, behaviour::action_words(call, scope(), profile_->variables));
+    }
     RefusalWatch watch(*this);
     behaviour::ActionContext context{machine_, variables_, watch};
     behaviour::run_action(call, scope(), profile_->variables, context);

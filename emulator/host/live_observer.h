@@ -43,6 +43,10 @@ class Observers final : public LiveObserver {
         for (LiveObserver* each : all_)
             each->on_datagram(now, peer, to_board, bytes);
     }
+    void on_world(SimTime now, std::string_view words) override {
+        for (LiveObserver* each : all_)
+            each->on_world(now, words);
+    }
     void on_link(SimTime now, link::LinkState state, std::string_view why) override {
         for (LiveObserver* each : all_)
             each->on_link(now, state, why);

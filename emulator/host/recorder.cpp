@@ -43,6 +43,10 @@ void Recorder::on_sent(SimTime now, board::Channel channel, std::string_view lin
     }
 }
 
+void Recorder::on_world(SimTime now, std::string_view words) {
+    write(now, recording_line(now, from_name(RecordedLine::From::world), "do", words));
+}
+
 void Recorder::on_datagram(SimTime now, std::uint64_t peer, bool to_board, std::string_view bytes) {
     using From = RecordedLine::From;
     // Longer ones are neither pieces of files nor requests, and would not fit into a line of a recording.

@@ -21,7 +21,7 @@ struct RecordedLine {
         board,    ///< the board said it to the screen
         screen,   ///< the screen said it to the board
         host,     ///< a command that came in over the board's USB port
-        world,    ///< done to the machine by hand: "filament in", "board reset"
+        world,    ///< done to the machine by hand: "filament in"; see behaviour::action_words()
         usb,      ///< the board's reply over its USB port
         network,  ///< a datagram to the board
         module,   ///< a datagram from the board

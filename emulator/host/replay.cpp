@@ -6,6 +6,8 @@
 #include <string_view>
 #include <utility>
 
+#include "emulator/behaviour/action_words.h"
+
 namespace fauxboard::host {
 namespace {
 
@@ -44,6 +46,7 @@ class Player {
     void advance(SimTime now);
     void take_output();
     void do_entry(SimTime now, const RecordedLine& entry);
+    void do_to_machine(SimTime now, const RecordedLine& entry);
 
     ReplayResult result_;
     NoticeKeeper keeper_;
@@ -91,6 +94,18 @@ void Player::align(const std::vector<RecordedLine>& recording) {
     }
 }
 
+void Player::do_to_machine(SimTime now, const RecordedLine& entry) {
+    try {
+        for (const behaviour::ActionCall& call :
+             behaviour::parse_action_words(entry.bytes, board_.profile())) {
+            board_.act(now, call);
+        }
+    } catch (const behaviour::ActionWordsError& error) {
+        throw ReplayError(
+            fmt::format("at {:.6f} s: \"{}\" {}", printer::to_seconds(entry.t), entry.bytes, error.what()));
+    }
+}
+
 void Player::do_entry(SimTime now, const RecordedLine& entry) {
     switch (entry.from) {
         case From::board:
@@ -107,11 +122,7 @@ void Player::do_entry(SimTime now, const RecordedLine& entry) {
             board_.receive(now, entry.bytes + "\n", board::Channel::host);
             break;
         case From::world:
-            if (!board_.world(now, entry.bytes)) {
-                throw ReplayError(
-                    fmt::format("at {:.6f} s: \"{}\" is nothing that can be done to the machine",
-                                printer::to_seconds(entry.t), entry.bytes));
-            }
+            do_to_machine(now, entry);
             break;
     }
 }

@@ -35,14 +35,14 @@ std::optional<behaviour::SourceText> find(std::string_view name, std::string_vie
     return std::nullopt;
 }
 
+}  // namespace
+
 std::vector<ProfileEntry> list_scripts() {
     std::vector<fs::path> folders = profile_folders();
     std::transform(folders.begin(), folders.end(), folders.begin(),
                    [](const fs::path& folder) { return folder / "scenarios"; });
     return list_profiles(folders);
 }
-
-}  // namespace
 
 behaviour::SourceFinder script_finder() {
     return find;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "emulator/behaviour/source.h"
+#include "emulator/host/profile_files.h"
 #include "emulator/script/loader.h"
 
 namespace fauxboard::host {
@@ -17,6 +18,9 @@ behaviour::SourceFinder script_finder();
 /// The text of a scenario by name or path. Throws behaviour::ProfileError when there is none; then the names
 /// that exist are told.
 behaviour::SourceText find_script(std::string_view name);
+
+/// All scenarios in the folders `scenarios` of profile_folders(), by name.
+std::vector<ProfileEntry> list_scripts();
 
 /// Checks a scenario against the board and the screen that it names itself. Throws behaviour::ProfileError.
 std::shared_ptr<const script::Scenario> check_script(const behaviour::SourceText& source);

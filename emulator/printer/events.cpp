@@ -65,6 +65,8 @@ constexpr std::array<EventInfo, event_count> table{{
     {EventId::host_wrong_checksum, "host.wrong_checksum", "a line of the USB side has a wrong checksum"},
     {EventId::host_no_checksum, "host.no_checksum", "a numbered line of the USB side has no checksum"},
     {EventId::host_no_number, "host.no_number", "a line of the USB side has a checksum and no number"},
+    {EventId::host_write_failed, "host.write_failed",
+     "the disk does not take what the USB side writes to a file (M28); its lines go nowhere until M29"},
     {EventId::power_lost, "power.lost",
      "the supply breaks down; there is still time to store what must be kept"},
     {EventId::job_layer_done, "job.layer_done", "a layer of a resin print has been exposed"},

@@ -59,6 +59,7 @@ enum class EventId : std::uint8_t {
     host_wrong_checksum,
     host_no_checksum,
     host_no_number,
+    host_write_failed,
     power_lost,
     job_layer_done,
     board_reboot_due,

@@ -8,6 +8,7 @@ namespace fauxboard::printer {
 namespace {
 
 constexpr std::size_t shown_bytes = 96;
+constexpr int end_of_file = 29;  ///< M29
 
 }  // namespace
 
@@ -15,7 +16,8 @@ void HostCommands::power_on() {
     source_.arc.clear();
     source_.wake = SimTime{0};
     source_.moves = 0;
-    running_ = acknowledged_ = false;
+    running_ = acknowledged_ = writing_ = false;
+    unwritten_.clear();
     busy_ = never;
     last_line = 0;
     resends = commands = 0;
@@ -37,6 +39,9 @@ bool HostCommands::ready(std::string_view command) {
     const Printer& p = source_.printer;
     if (running_ || p.wait.active()) {
         return false;
+    }
+    if (writing_) {
+        return true;  // it moves nothing, so it need not wait for what moves
     }
     parse(command);
     return code_ == nullptr || (code_->at_rest ? !p.motion.busy() : p.motion.can_stream());
@@ -76,6 +81,41 @@ void HostCommands::over() {
     if (!acknowledged_) {
         source_.printer.events.raise(EventId::host_done);
     }
+}
+
+void HostCommands::follow_transfer() {
+    const bool open = source_.printer.transfer.takes_from(Transfer::usb_side);
+    if (open != writing_) {
+        writing_ = open;
+        unwritten_.clear();
+    }
+}
+
+bool HostCommands::write(std::string_view command, SimTime now) {
+    if (!writing_) {
+        return false;
+    }
+    if (line_.letter == 'M' && line_.code == end_of_file) {
+        flush(now);
+        return false;
+    }
+    code_ = nullptr;                            // it is a text now, and over at once
+    unwritten_.append(command).append("\r\n");  // as Marlin ends them
+    if (unwritten_.size() >= block_bytes) {
+        flush(now);
+    }
+    return true;
+}
+
+/// What is not on the disk yet goes there.
+void HostCommands::flush(SimTime now) {
+    Transfer& transfer = source_.printer.transfer;
+    if (transfer.takes_from(Transfer::usb_side) &&
+        !transfer.piece(now, Transfer::usb_side, true, transfer.position(), unwritten_)) {
+        transfer.close(now, Transfer::usb_side);
+        source_.printer.events.raise(EventId::host_write_failed);
+    }
+    unwritten_.clear();
 }
 
 void HostCommands::stream() {

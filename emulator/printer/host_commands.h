@@ -13,6 +13,8 @@ namespace fauxboard::printer {
 /// What the commands of the USB side do, one after the other: each begins when the one before it is over, and
 /// a move when the planner has room for it. That is how a host that waits for every `ok` is kept at the
 /// printer's pace. Shares the modal state (units, feed) with a job, as in the firmware.
+///
+/// While a file that the host began (M28) is open, its lines are written to it instead, until M29.
 class HostCommands {
   public:
     explicit HostCommands(Printer& printer) : source_{printer} {}
@@ -33,6 +35,16 @@ class HostCommands {
     /// What answered it was its acknowledgement as well ("ok T:..").
     void acknowledge() { acknowledged_ = true; }
 
+    /// Whether a file of the host's is open, so that lines are kept and not carried out. Also when it can no
+    /// longer be written: a host that goes on sending it must not have it printed instead.
+    bool writing() const { return writing_; }
+    /// The command begun becomes a line of the file that is open. False when there is none, or it is the one
+    /// that ends it: it is to be carried out then. Raises `host.write_failed`, once for a file, when the disk
+    /// takes no more; nothing of the file will stand under its name then.
+    bool write(std::string_view command, SimTime now);
+    /// After a command that may have begun or ended a file: looks at the transfer.
+    void follow_transfer();
+
     void advance(SimTime now);
     SimTime next_event() const {
         const bool idle = busy_ == never && source_.wake == SimTime{0} && !source_.arc.active();
@@ -46,7 +58,11 @@ class HostCommands {
     std::uint64_t moves() const { return source_.moves; }
 
   private:
+    /// What the board collects before it writes: a block of the card.
+    static constexpr std::size_t block_bytes = 512;
+
     void parse(std::string_view command);
+    void flush(SimTime now);
     void stream();
     SimTime next_of_command() const;
 
@@ -57,7 +73,9 @@ class HostCommands {
     const GcodeCode* code_ = nullptr;  ///< of parsed_
     bool running_ = false;
     bool acknowledged_ = false;
-    SimTime busy_ = never;  ///< when the host is told next that it has to wait
+    bool writing_ = false;
+    std::string unwritten_;  ///< of the file; less than a block and a line
+    SimTime busy_ = never;   ///< when the host is told next that it has to wait
 };
 
 }  // namespace fauxboard::printer

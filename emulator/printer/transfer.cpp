@@ -185,9 +185,11 @@ bool Transfer::block(SimTime now, Peer peer, std::span<char> out, std::size_t& g
 
 bool Transfer::remove(std::string_view name) {
     asked_ = name;
-    return say(!storage_.usable(storage_.chosen()) ? Outcome::no_disk
-               : storage_.remove(name)             ? Outcome::done
-                                                   : Outcome::missing);
+    std::string path;
+    if (!storage_.usable(storage_.chosen())) {
+        return say(Outcome::no_disk);
+    }
+    return say(clean_path({}, name, path) && storage_.remove("/" + path) ? Outcome::done : Outcome::missing);
 }
 
 bool Transfer::close(SimTime now, Peer peer) {

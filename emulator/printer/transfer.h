@@ -38,6 +38,7 @@ class Transfer {
     };
 
     static constexpr Peer serial_line = 0;
+    static constexpr Peer usb_side = ~Peer{0};
     static constexpr std::size_t max_block = 1280;
     static constexpr SimTime idle_limit = std::chrono::seconds(30);
     static constexpr std::uint64_t max_bytes = 0x8000'0000;
@@ -61,7 +62,7 @@ class Transfer {
     bool seek(SimTime now, Peer peer, std::uint64_t offset);
     /// The next block, into the start of `out`; `got` bytes of it. It began at `got` before position().
     bool block(SimTime now, Peer peer, std::span<char> out, std::size_t& got);
-    /// M30: a file of the chosen disk goes.
+    /// M30: a file of the chosen disk goes; `name` counts from its root.
     bool remove(std::string_view name);
     /// M22: what is open is closed; of an upload nothing remains.
     bool close(SimTime now, Peer peer);
@@ -82,7 +83,7 @@ class Transfer {
     Trouble trouble;  ///< outlives a reset of the board
 
     Outcome outcome = Outcome::done;
-    /// Who sent the request that is being carried out; the board says it. 0 is the serial line.
+    /// Who sent the request that is being carried out; the board says it.
     Peer asker = serial_line;
 
     /// The block that goes out: what block() was last told to fill. It begins at position() less its size.
@@ -94,6 +95,7 @@ class Transfer {
     Block last_block;  ///< of the request that is being carried out
 
     Mode mode() const { return mode_; }
+    bool by_network() const { return asker != serial_line && asker != usb_side; }
     /// Whether this one's upload is open, so that what it sends may be pieces.
     bool takes_from(Peer peer) const { return mode_ == Mode::upload && peer == owner_; }
     /// As it was asked for; stays when it is over.

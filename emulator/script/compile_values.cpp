@@ -70,6 +70,12 @@ std::span<const TriggerInfo> trigger_kinds() {
         TriggerInfo{"line", "pattern",
                     "the board says a line to the screen that matches; without frame and checksum",
                     Trigger::Kind::line},
+        TriggerInfo{"host_request", "pattern",
+                    "a host program asks the board something that matches over its USB port; without number "
+                    "and checksum",
+                    Trigger::Kind::host_request},
+        TriggerInfo{"host_line", "pattern", "the board says a line to the host that matches",
+                    Trigger::Kind::host_line},
         TriggerInfo{"event", "name", "something happens to the machine; see events", Trigger::Kind::event},
         TriggerInfo{"field", "conditions",
                     "fields have values: {\"heaters.nozzle.true\": {\"min\": \"198C\"}}; tests as in a "
@@ -124,6 +130,30 @@ void compile_page(Compiler& c, const Json& value, const std::string& at, Trigger
         fmt::format("the screen to open the page \"{}\"", c.shared().cast.screen->pages[*page.page].path);
 }
 
+/// What such a trigger waits for, without what it matches.
+std::string_view what_of(Trigger::Kind kind) {
+    switch (kind) {
+        case Trigger::Kind::request:
+            return "a request of the screen";
+        case Trigger::Kind::line:
+            return "a line of the board";
+        case Trigger::Kind::host_request:
+            return "a request of the host";
+        case Trigger::Kind::host_line:
+            return "a line of the board to the host";
+        default:
+            return "the screen to show something";
+    }
+}
+
+std::vector<std::string_view> trigger_names() {
+    std::vector<std::string_view> names;
+    for (const TriggerInfo& each : trigger_kinds()) {
+        names.push_back(each.name);
+    }
+    return names;
+}
+
 }  // namespace
 
 Trigger Compiler::trigger(const Json& node, const std::string& pointer, Trigger::Kind text) {
@@ -147,8 +177,8 @@ Trigger Compiler::trigger(const Json& node, const std::string& pointer, Trigger:
             if (!given.empty() || node.empty()) {
                 findings_.add(pointer,
                               given.empty()
-                                  ? "nothing to wait for; expected one of time, request, line, event, "
-                                    "field, page, shows"
+                                  ? fmt::format("nothing to wait for; expected one of {}",
+                                                fmt::join(trigger_names(), ", "))
                                   : fmt::format("\"{}\" and \"{}\" at once; expected one of them (put "
                                                 "two waits side by side with \"together\")",
                                                 given[0], given[1]));
@@ -175,13 +205,11 @@ Trigger Compiler::trigger(const Json& node, const std::string& pointer, Trigger:
             break;
         case Trigger::Kind::request:
         case Trigger::Kind::line:
+        case Trigger::Kind::host_request:
+        case Trigger::Kind::host_line:
         case Trigger::Kind::shows:
             out.pattern = this->pattern(*value, at);
-            out.words = fmt::format("{} that matches \"{}\"",
-                                    out.kind == Trigger::Kind::request ? "a request of the screen"
-                                    : out.kind == Trigger::Kind::line  ? "a line of the board"
-                                                                       : "the screen to show something",
-                                    plain(*value));
+            out.words = fmt::format("{} that matches \"{}\"", what_of(out.kind), plain(*value));
             if (out.kind == Trigger::Kind::shows) {
                 needs_screen(at, "shows");
             }

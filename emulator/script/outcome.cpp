@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::array<std::string_view, 4> verdict_names{"passed", "failed", "timed out", "interrupted"};
 constexpr std::array<std::string_view, 3> step_verdicts{"passed", "failed", "not reached"};
-constexpr std::array<std::string_view, 3> talkers{"board", "screen", "event"};
+constexpr std::array<std::string_view, 5> talkers{"board", "screen", "event", "usb", "host"};
 
 Json where_json(const Where& where) {
     return {{"file", where.file}, {"line", where.line}, {"pointer", where.pointer}};

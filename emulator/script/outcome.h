@@ -11,7 +11,7 @@ namespace fauxboard::script {
 
 /// One thing that passed, for the record of a failure. Text without frame and checksum, UTF-8.
 struct Talk {
-    enum class From : std::uint8_t { board, screen, event };
+    enum class From : std::uint8_t { board, screen, event, usb, host };
     SimTime at{0};
     From from = From::board;
     std::string text;

@@ -9,6 +9,7 @@
 #include "emulator/behaviour/wire_text.h"
 #include "emulator/script/compiler.h"
 #include "protocol/framing.h"
+#include "protocol/host_line.h"
 
 namespace fauxboard::script {
 namespace {
@@ -64,21 +65,23 @@ void Player::push(Passed passed) {
 }
 
 void Player::on_received(SimTime now, board::Channel channel, std::string_view line, board::Verdict verdict) {
-    if (channel != board::Channel::main || verdict != board::Verdict::accepted) {
+    if (channel == board::Channel::network || verdict != board::Verdict::accepted) {
         return;
     }
-    const std::string_view body = body_of(line);
-    keep_talk(now, Talk::From::screen, body);
-    push({Trigger::Kind::request, now, std::string(body), {}});
+    const bool host = channel == board::Channel::host;
+    const std::string_view body = host ? protocol::unframe_host_line(line).body : body_of(line);
+    keep_talk(now, host ? Talk::From::host : Talk::From::screen, body);
+    push({host ? Trigger::Kind::host_request : Trigger::Kind::request, now, std::string(body), {}});
 }
 
 void Player::on_sent(SimTime now, board::Channel channel, std::string_view line) {
-    if (channel != board::Channel::main) {
+    if (channel == board::Channel::network) {
         return;
     }
-    const std::string_view body = body_of(line);
-    keep_talk(now, Talk::From::board, body);
-    push({Trigger::Kind::line, now, std::string(body), {}});
+    const bool host = channel == board::Channel::host;
+    const std::string_view body = host ? line : body_of(line);
+    keep_talk(now, host ? Talk::From::usb : Talk::From::board, body);
+    push({host ? Trigger::Kind::host_line : Trigger::Kind::line, now, std::string(body), {}});
 }
 
 void Player::on_event(SimTime now, printer::EventId event) {

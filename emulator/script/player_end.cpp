@@ -15,6 +15,22 @@ namespace {
 
 using Verdict = Outcome::Verdict;
 
+/// Whose words a trigger is about, and the start of a sentence about them.
+std::pair<Talk::From, const char*> speaker(Trigger::Kind kind) {
+    switch (kind) {
+        case Trigger::Kind::line:
+            return {Talk::From::board, "the board said"};
+        case Trigger::Kind::request:
+            return {Talk::From::screen, "the screen asked"};
+        case Trigger::Kind::host_line:
+            return {Talk::From::usb, "the board said to the host"};
+        case Trigger::Kind::host_request:
+            return {Talk::From::host, "the host asked"};
+        default:
+            return {Talk::From::event, "that happened was"};
+    }
+}
+
 std::string value_words(const board::Board& board, const std::string& name) {
     const control::Place place = control::find_place(board, name);
     const Json value = control::value_of(board, place);
@@ -54,18 +70,17 @@ std::string Player::explain(const Trigger& trigger) const {
     if (trigger.is_state()) {
         return fmt::format("it shows the page \"{}\"", stage_->screen()->page().path);
     }
-    const Talk::From from = trigger.kind == Trigger::Kind::line      ? Talk::From::board
-                            : trigger.kind == Trigger::Kind::request ? Talk::From::screen
-                                                                     : Talk::From::event;
+    const std::pair<Talk::From, const char*> speaking = speaker(trigger.kind);
+    const Talk::From from = speaking.first;
     const auto last =
         std::find_if(talk_.rbegin(), talk_.rend(), [&](const Talk& talk) { return talk.from == from; });
     if (from == Talk::From::event) {
         return last == talk_.rend() ? "nothing happened lately"
                                     : fmt::format("the last that happened was {}", last->text);
     }
-    const std::string who = from == Talk::From::board
-                                ? std::string("the board said")
-                                : fmt::format("the {} asked", scenario_->cast.profile->line.peer);
+    const std::string who = from == Talk::From::screen
+                                ? fmt::format("the {} asked", scenario_->cast.profile->line.peer)
+                                : std::string(speaking.second);
     return last == talk_.rend() ? fmt::format("{} nothing lately", who)
                                 : fmt::format("the last that {} was \"{}\"", who, last->text);
 }

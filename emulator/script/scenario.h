@@ -39,8 +39,10 @@ struct Where {
 struct Trigger {
     enum class Kind : std::uint8_t {
         time,
-        request,  ///< a line that the board took from the screen
-        line,     ///< a line that the board said to the screen
+        request,       ///< a line that the board took from the screen
+        line,          ///< a line that the board said to the screen
+        host_request,  ///< a line that the board took from its USB side
+        host_line,     ///< a line that the board said there
         event,
         field,
         page,   ///< the virtual screen has it open
@@ -82,11 +84,12 @@ struct Step {
     bool next = false;                                     ///< the very next line has to be it
     bool now = false;                                      ///< it has to be so at once
 
-    // Acts: do, set, send, request, press, fault, clear, note, upload.
+    // Acts: do, set, send, request, host, press, fault, clear, note, upload.
     std::vector<behaviour::ActionCall> calls;
     std::optional<behaviour::Send> frame;
-    std::string bytes;  ///< for the line; of a file
-    std::string text;   ///< a button, a fault's name, a note, a file's name
+    std::string bytes;      ///< for the line; of a file
+    bool numbered = false;  ///< they get the number that the board expects, and a checksum
+    std::string text;       ///< a button, a fault's name, a note, a file's name
     std::optional<fault::FaultSpec> fault;
 
     // Blocks: repeat, together, include, never with steps.

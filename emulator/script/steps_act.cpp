@@ -17,6 +17,7 @@ using behaviour::found;
 using behaviour::ObjectReader;
 
 constexpr std::size_t most_raw_bytes = 2048;
+constexpr std::size_t most_host_bytes = protocol::max_line_bytes - 24;  ///< room for number and checksum
 
 /// A line as the main line of the board has them.
 std::string framed(Compiler& c, const std::string& line) {
@@ -105,6 +106,26 @@ void compile_request(Compiler& c, const Json& value, ObjectReader& reader, Step&
 
 std::string run_request(Acting& acting, const Step& step) {
     acting.stage.visit([&](board::Board& board, SimTime now) { board.receive(now, step.bytes); });
+    return {};
+}
+
+void compile_host(Compiler& c, const Json& value, ObjectReader& reader, Step& out) {
+    out.bytes = c.line(value, reader.pointer("host"), most_host_bytes, true);
+    reader.boolean("numbered", out.numbered);
+    out.words = "host " + value.dump();
+}
+
+std::string run_host(Acting& acting, const Step& step) {
+    acting.stage.visit([&](board::Board& board, SimTime now) {
+        std::string line = step.bytes;
+        if (step.numbered) {
+            board.refresh(now);
+            line = fmt::format("N{} {}", board.machine().host.last_line + 1, line);
+            line += fmt::format("*{}", protocol::xor_checksum(line));
+        }
+        board.connect(board::Channel::host, true);
+        board.receive(now, line + '\n', board::Channel::host);
+    });
     return {};
 }
 
@@ -252,6 +273,9 @@ std::string run_note(Acting& acting, const Step& step) {
     return {};
 }
 
+constexpr std::array host_keys{
+    KeyInfo{"numbered", "true or false",
+            "puts the number that the board expects in front and a checksum behind; left out: false"}};
 constexpr std::array fault_keys{
     KeyInfo{"as", "name", "what to call it; left out: its kind. A fault of the same name is replaced"}};
 
@@ -290,6 +314,10 @@ constexpr std::array table{
              Role::act,
              compile_request,
              run_request},
+    StepKind{"host", "text",
+             "the board hears this line over its USB port, as if a host program had sent it; from the first "
+             "one on somebody is there to be answered",
+             R"j({"host": "G28", "numbered": true})j", host_keys, Role::act, compile_host, run_host},
     StepKind{"press",
              "button",
              "the virtual screen's button is touched, and those on the way to it",

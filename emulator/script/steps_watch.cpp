@@ -27,19 +27,29 @@ void compile_wait(Compiler& c, const Json& value, ObjectReader& reader, Step& ou
 
 void compile_expect(Compiler& c, const Json& value, ObjectReader& reader, Step& out) {
     const std::string at = reader.pointer("expect");
+    const std::size_t before = c.findings().problems.size();
     out.trigger = c.trigger(value, at, Kind::line);
     out.words = "expect " + out.trigger.words;
     c.limits(reader, c.shared().limits.expect, out);
-    if (out.trigger.kind == Kind::time) {
+    if (out.trigger.kind == Kind::time && c.findings().problems.size() == before) {
         c.findings().add(at, "nothing can be expected of the time; \"wait\" lets it pass");
     }
 }
 
 void compile_expect_next(Compiler& c, const Json& value, ObjectReader& reader, Step& out) {
+    const std::string place = reader.pointer("expect_next");
     out.next = true;
-    out.trigger.kind = Kind::line;
-    out.trigger.pattern = c.pattern(value, reader.pointer("expect_next"));
-    out.trigger.words = fmt::format("the next line of the board to match {}", value.dump());
+    out.trigger = c.trigger(value, place, Kind::line);
+    const Kind kind = out.trigger.kind;
+    if (kind != Kind::line && kind != Kind::host_line) {
+        c.findings().add(place,
+                         "only lines of the board have a next one; expected a pattern, or "
+                         "{\"host_line\": pattern}");
+        return;
+    }
+    const Json& pattern = value.is_object() ? value.begin().value() : value;
+    out.trigger.words = fmt::format("the next line of the board{} to match {}",
+                                    kind == Kind::line ? "" : " to the host", pattern.dump());
     out.words = "expect " + out.trigger.words;
     c.limits(reader, c.shared().limits.expect, out);
     if (const Json* list = reader.get("ignoring")) {
@@ -89,7 +99,8 @@ constexpr std::array table{
              "matches, or another trigger",
              R"j({"expect": "^L2 .*/200\\.0", "within": "500ms"})j", expect_keys, Role::watch,
              compile_expect},
-    StepKind{"expect_next", "pattern", "the very next line of the board has to match",
+    StepKind{"expect_next", "pattern, or {\"host_line\": pattern}",
+             "the very next line of the board has to match: to the screen, or to the host",
              R"j({"expect_next": "^L23 ", "ignoring": ["^L[123] "]})j", next_keys, Role::watch,
              compile_expect_next},
     StepKind{"check",

@@ -37,6 +37,13 @@ const std::vector<ActionRow>& transfer_action_rows() {
              b.run(R"("transfer.finish")");
              CHECK(b.text("transfer.outcome") == "not_open");
          }},
+        {"transfer.remove",
+         [](Bench& b) {
+             b.run(R"({"transfer.remove": {"name": "missing.ctb"}})");
+             CHECK(b.text("transfer.outcome") == "missing");
+             b.run(R"({"transfer.remove": {"name": ")" + a_file(b) + R"("}})");
+             CHECK(b.text("transfer.outcome") == "missing");  // of a card that can be read only
+         }},
         {"transfer.download",
          [](Bench& b) {
              b.run(R"({"transfer.download": {"name": "missing.ctb"}})");

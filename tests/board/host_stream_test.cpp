@@ -118,8 +118,8 @@ TEST_CASE_FIXTURE(Ready, "host stream: nobody at the other end costs nothing and
 
 TEST_CASE("host stream: a whole print with damaged and lost lines: every move once, in order") {
     SlicedFile wishes;
-    wishes.moves = 6000;
-    wishes.layers = 40;
+    wishes.moves = 60'000;
+    wishes.layers = 200;
     wishes.shape = SlicedFile::Shape::towers;
     const std::string file = make_sliced_file(wishes);
     BoardDriver driver;
@@ -131,10 +131,10 @@ TEST_CASE("host stream: a whole print with damaged and lost lines: every move on
     for (std::size_t at = program.find("M117"); at != std::string::npos; at = program.find("M117", at + 1)) {
         expected_messages += "L14 " + program.substr(at + 4, program.find('\n', at) - at - 4) + "\n";
     }
-    REQUIRE(std::count(expected_messages.begin(), expected_messages.end(), '\n') >= 40);
+    REQUIRE(std::count(expected_messages.begin(), expected_messages.end(), '\n') >= 200);
     std::size_t moves = 0;
     std::set<std::string> planned;
-    const bool done = host.print(program, 1e5, [&](const std::string& command) {
+    const bool done = host.print(program, 1e6, [&](const std::string& command) {
         if (command[0] != 'G' || (command[1] != '0' && command[1] != '1') || command[2] != ' ') {
             return;
         }
@@ -156,10 +156,10 @@ TEST_CASE("host stream: a whole print with damaged and lost lines: every move on
         }
     });
     CHECK(done);
-    CHECK(host.damaged() > 50);
-    CHECK(host.lost() > 20);
+    CHECK(host.damaged() > 500);
+    CHECK(host.lost() > 200);
     CHECK(host.resends() >= host.damaged() / 2);
-    CHECK(moves > 6000);
+    CHECK(moves > 60'000);
     CHECK(driver.number("host.moves") == moves);
     driver.run_for(60);
     // The screen's side, as in the recorded print: idle, messages as they are, positions that were planned.

@@ -59,6 +59,9 @@ TEST_CASE("lists, for people and for programs") {
                       [](const auto& p) { return p["name"] == "geeetech-a30"; }));
     CHECK(std::any_of(profiles.begin(), profiles.end(),
                       [](const auto& p) { return p["name"] == "geeetech-a30t" && p["kind"] == "screen"; }));
+    CHECK(std::any_of(profiles.begin(), profiles.end(), [](const auto& p) {
+        return p["name"] == "power-loss" && p["kind"] == "scenario" && p["title"] != "";
+    }));
     CHECK(run({"ports"}).code == 0);
     CHECK(nlohmann::json::parse(run({"ports", "--json"}).out).is_array());
 }

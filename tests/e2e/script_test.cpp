@@ -53,6 +53,20 @@ TEST_CASE("a shipped scenario passes in virtual time, with a screen in the proce
     CHECK(contains(read(folder.file("talk.jsonl")), R"("from": "screen")"));
 }
 
+TEST_CASE("what a scenario does to the machine stands in its recording, and a replay does it again") {
+    const Script script(R"({"name": "test", "steps": [
+        {"wait": "5s"}, {"do": "filament in"}, {"do": {"heater.target": {"heater": "bed", "c": "60C"}}},
+        {"request": "M105"}, {"expect": "^L2 B:[0-9.]* /60\\.0", "within": "5s"}]})");
+    const std::string talk = script.folder.file("talk.jsonl");
+    REQUIRE(run(script.args({"--speed", "max", "-q", "--record", talk})).code == 0);
+    const std::string recorded = read(talk);
+    CHECK(contains(recorded, R"("from": "world", "do": "filament in"})"));
+    CHECK(contains(recorded, R"("do": "{\"heater.target\":{\"heater\":\"bed\",\"c\":60.0}}"})"));
+    const Result again = run({"replay", talk});
+    CHECK(again.code == 0);
+    CHECK(contains(again.out, "/60.0 "));
+}
+
 TEST_CASE("exit codes: passed, failed, a wait in vain, a wrong file, ended before its time") {
     const auto code = [](std::string_view steps, Args more = {}) {
         const Script script(R"({"name": "test", "steps": )" + std::string(steps) + "}");

@@ -1,8 +1,8 @@
 // A whole board, fed arbitrary bytes at arbitrary times.
 //
 // The input is a script: two digits, then one step a line. The first digit adds up 1 (no pacing), 2 (run it
-// again byte by byte: the answers must be the same), 4 (with an observer); the second chooses the profile.
-// Steps:
+// again byte by byte: the answers must be the same), 4 (with an observer), 8 (a card that can be
+// written to); the second chooses the profile. Steps:
 //   s M115      a request from the screen, framed rightly
 //   r ~M115|    bytes from the screen as they are: ~ is LF, ` is CR, ^ is NUL, | is CR LF
 //   h M105~     the same from the USB side
@@ -20,6 +20,7 @@
 
 #include "protocol/framing.h"
 #include "tests/fuzz/support.h"
+#include "tests/support/sliced_file.h"
 
 namespace fauxboard::fuzz {
 namespace {
@@ -33,6 +34,8 @@ constexpr std::size_t many_stops = 20'000;
 /// What one step may put out: 16 KiB without pacing, what one more rule says, and host lines, which are
 /// answered at once, with one frame each.
 constexpr std::size_t output_bound = 256UL * 1024;
+constexpr std::uint64_t card_room = 4096;
+constexpr std::string_view old_content = "G28";
 
 /// Looks at every byte it is told of, so that a sanitizer sees a view that is not alive.
 class Witness final : public board::Observer {
@@ -81,7 +84,7 @@ class Run {
   public:
     Run(unsigned mode, std::size_t profile, bool split)
         : split_(split),
-          board_(shipped_profile(profiles[profile % profiles.size()]), {},
+          board_(shipped_profile(profiles[profile % profiles.size()]), services((mode & 8U) != 0),
                  {(mode & 1U) == 0, 7, (mode & 4U) != 0 ? &witness_ : nullptr}) {
         board_.power_on(now_);
     }
@@ -92,11 +95,19 @@ class Run {
     const std::string& transcript() const { return transcript_; }
 
   private:
+    printer::Services services(bool writable) {
+        disk_.put("old.gco", std::string(old_content));
+        disk_.set_room(card_room);
+        printer::Services made;
+        made.sd = writable ? &disk_ : nullptr;
+        return made;
+    }
     void feed(bool host, std::string_view bytes);
     void pass(SimTime time);
     void take(SimTime time, std::string_view output);
 
     bool split_;
+    testing::MemoryDisk disk_;
     Witness witness_;
     SimTime now_{0};
     SimTime back_{0};
@@ -128,7 +139,8 @@ void Run::feed(bool host, std::string_view bytes) {
         give(bytes);
     }
     const bool spoke = !board_.output().empty();
-    require(board_.output(board::Channel::host).size() <= output_bound, "output to the host grows without bound");
+    require(board_.output(board::Channel::host).size() <= output_bound,
+            "output to the host grows without bound");
     if (spoke) {
         take(board_.time(), board_.output());
     }
@@ -190,6 +202,10 @@ void Run::finish() {
     feed(false, protocol::frame("M115"));
     pass(std::chrono::seconds(10));
     require(answered_, "the board does not answer any more");
+    // A file is there whole, was never touched, or was deleted. Lines written end with CR LF.
+    const std::string* const old = disk_.content("old.gco");
+    require(old == nullptr || old->empty() || *old == old_content || old->ends_with("\r\n"),
+            "half a file stands under its name");
 }
 
 std::string play(std::string_view script, bool split) {

@@ -151,13 +151,16 @@ TEST_CASE("a recording holds every line of the wire and can be loaded at any mom
     recorder.on_received(1'000'001us, Channel::main, "N-0 M105*10", Verdict::accepted);
     recorder.on_received(2s, Channel::host, "M115", Verdict::accepted);
     recorder.on_sent(3s, board::Channel::main, "L9 SN:\xFF");
+    recorder.on_world(4s, R"({"heater.target":{"heater":"bed","c":60.0}})");
     const auto lines = load_recording(file);
-    REQUIRE(lines.size() == 3);
+    REQUIRE(lines.size() == 4);
+    CHECK(lines[3].from == RecordedLine::From::world);
+    CHECK(lines[3].bytes == R"({"heater.target":{"heater":"bed","c":60.0}})");
     CHECK(lines[0].t == 1'000'001us);
     CHECK(lines[0].from == RecordedLine::From::screen);
     CHECK(lines[1].from == RecordedLine::From::host);
     CHECK(lines[2].bytes == "L9 SN:\xFF");
-    CHECK(recorder.lines() == 3);
+    CHECK(recorder.lines() == 4);
 }
 
 TEST_CASE("a full disk ends the recording once, and nothing else") {

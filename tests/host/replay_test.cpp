@@ -70,13 +70,18 @@ TEST_CASE("replay: the first line ends when the recorded one did, and the rest f
 }
 
 TEST_CASE("replay: screen, host and world reach the board") {
-    const ReplayResult result = run({screen(2, "M2134 FW:V1"),
-                                     {seconds(3), From::host, "M117 hello"},
-                                     {seconds(3.5), From::world, "filament in"},
-                                     {seconds(9), From::world, "board reset"},
-                                     screen(12, "M105")});
+    const ReplayResult result =
+        run({screen(2, "M2134 FW:V1"),
+             {seconds(3), From::host, "M117 hello"},
+             {seconds(3.5), From::world, "filament in"},
+             {seconds(4), From::world, R"({"set":{"wifi.signal":3.0}})"},
+             {seconds(4), From::world, R"({"heater.target":{"heater":"bed","c":60}})"},
+             screen(8, "M105"),
+             {seconds(9), From::world, "board reset"},
+             screen(12, "M105")});
     CHECK(count(result, "L14  hello") == 1);
     CHECK(count(result, " FT:1 ") >= 1);
+    CHECK(count(result, "/60.0 ") >= 1);   // the bed's target, until the reset
     CHECK(count(result, "N-0 L9 ") == 3);  // boot, answer, second boot
     const RecordedLine* hello = first(result, "L14  hello");
     REQUIRE(hello != nullptr);
@@ -89,6 +94,13 @@ TEST_CASE("replay: unknown things cannot be done, unknown codes are told") {
     CHECK_THROWS_WITH_AS(run({{seconds(1.5), From::world, "coffee in"}}),
                          "at 1.500000 s: \"coffee in\" is nothing that can be done to the machine",
                          ReplayError);
+    CHECK_THROWS_WITH_AS(run({{seconds(1.5), From::world, R"({"coffee.make": {}})"}}),
+                         "at 1.500000 s: \"{\"coffee.make\": {}}\" cannot be done to the machine: unknown "
+                         "action \"coffee.make\"",
+                         ReplayError);
+    CHECK_THROWS_AS(run({{seconds(1.5), From::world, "{"}}), ReplayError);
+    CHECK_THROWS_AS(run({{seconds(1.5), From::world, R"({"heater.target": {"heater": "bed"}})"}}),
+                    ReplayError);
     const ReplayResult result = run({screen(1, "M9999")});
     CHECK(result.counters.unknown_codes == 1);
     REQUIRE(!result.notices.empty());

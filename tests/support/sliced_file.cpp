@@ -219,7 +219,10 @@ printer::Volume::Kind MemoryDisk::look(std::string_view path, std::uint64_t& byt
         bytes = made->second.bytes;
         return Kind::file;
     }
-    return path.empty() ? Kind::folder : Kind::missing;
+    const std::string below = std::string(path) + "/";
+    const auto inner = files_.lower_bound(below);
+    const bool folder = path.empty() || (inner != files_.end() && inner->first.starts_with(below));
+    return folder ? Kind::folder : Kind::missing;
 }
 
 std::optional<std::size_t> MemoryDisk::read(std::string_view path, std::uint64_t offset,
