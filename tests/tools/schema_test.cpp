@@ -47,7 +47,8 @@ json everything() {
     return json::parse(R"({
         "$schema": "schemas/profile.schema.json", "comment": "", "name": "test", "title": "t", "protocol": "smartto",
         "extends": "smartto-base",
-        "line": { "baud": 9600, "checksum": "ignored", "queue_lines": 8 },
+        "line": { "baud": 9600, "checksum": "ignored", "queue_lines": 8, "peer": "host",
+                  "unfinished_ms": 250 },
         "transmit": { "tick_ms": 20 },
         "identity": { "device_name": "a", "model": "b", "serial_number": "\u00ff", "firmware": "d", "volume": "e", "hardware": "f" },
         "variables": { "v": { "value": 1, "min": 0, "max": 2, "help": "h" } },
@@ -206,6 +207,8 @@ TEST_CASE("schema: bounds are those of the loader") {
         {"/line/baud", 299},
         {"/line/baud", 4000001},
         {"/line/queue_lines", 0},
+        {"/line/peer", 5},
+        {"/line/unfinished_ms", -1},
         {"/line/checksum", "sometimes"},
         {"/transmit/tick_ms", 0.05},
         {"/identity/model", std::string(65, 'x')},
