@@ -8,6 +8,7 @@
 //   s      the rest of the line comes over the serial line
 //   o i    the disk goes out, comes in
 //   f      the disk is full from here on; a number: so many bytes more go onto it
+//   n      the network goes bad: the number's last digit says how (see Network::spoil), the others how often
 
 #include <algorithm>
 #include <array>
@@ -48,6 +49,7 @@ class Network {
     void datagram(std::uint64_t peer, std::string_view bytes);
     void chunk(std::uint64_t peer, std::uint64_t number, bool damaged);
     void pass(SimTime time);
+    void spoil(std::uint64_t number);
     void watch(std::string_view request);
 
     testing::MemoryDisk disk_;
@@ -87,7 +89,8 @@ void Network::datagram(std::uint64_t peer, std::string_view bytes) {
         require(to == peer, "an answer to somebody who did not ask");
         require(!answer.empty() && answer.size() <= protocol::max_chunk_bytes,
                 "an answer of a strange length");
-        require(answer.back() == '\n' || protocol::read_chunk(answer).fault == protocol::ChunkFault::none,
+        require(answer.back() == '\n' || board_.machine().transfer.trouble.damaged > 0 ||
+                    protocol::read_chunk(answer).fault == protocol::ChunkFault::none,
                 "an answer that is neither line nor block");
         size += answer.size();
         ++answers_;
@@ -110,6 +113,16 @@ void Network::chunk(std::uint64_t peer, std::uint64_t number, bool damaged) {
     datagram(peer, {room.data(), size});
     require(!damaged || !owner || position_ == at, "a damaged chunk was written");
     require(position_ == at || position_ == at + payload.size(), "a chunk was written in part");
+}
+
+void Network::spoil(std::uint64_t number) {
+    printer::Transfer::Trouble trouble;
+    const std::array<double*, 4> kinds{&trouble.lost, &trouble.answers_lost, &trouble.damaged,
+                                       &trouble.repeated};
+    if (const std::uint64_t kind = number % 10; kind < kinds.size()) {
+        *kinds[kind] = static_cast<double>(number / 10 % 101) / 100;
+    }
+    board_.machine().transfer.trouble = trouble;
 }
 
 void Network::step(std::string_view line) {
@@ -136,6 +149,8 @@ void Network::step(std::string_view line) {
         board_.world(now_, what == 'o' ? "card out" : "card in");
     } else if (what == 'f') {
         disk_.set_room(std::min<std::uint64_t>(number, 1'000'000) + 1);
+    } else if (what == 'n') {
+        spoil(number);
     }
 }
 
