@@ -21,7 +21,7 @@ constexpr std::size_t most_name_bytes = 200;
 /// Without progress for so long, the file does not get through.
 constexpr int most_tries = 100;
 /// Who sends: a number that no socket gives out.
-constexpr std::uint64_t sender = ~std::uint64_t{0};
+constexpr std::uint64_t sender = printer::Transfer::usb_side - 1;
 
 /// Of "resend 3840", and of "resend 1280,offset error:3840": the last number.
 std::size_t place_in(std::string_view answer) {
