@@ -307,12 +307,14 @@ void Run::reload() {
 void Run::say_summary() {
     const board::Counters& c = board_->counters();
     const link::LinkStats& l = link_->stats();
-    err_.write(fmt::format(
-        "After {:.3f} s: {} lines from the {}, {} to it. Bad frames {}, too long {}, unknown codes {}, "
-        "no rule {}, requests lost {}, messages lost {}, cut {}. Bytes in {}, out {}, lost {}.\n",
-        printer::to_seconds(live_->now()), c.lines_received, profile_->line.peer, c.lines_sent, c.bad_frames,
-        board_->lines_too_long(), c.unknown_codes, c.unmatched, c.requests_lost, c.messages_lost, c.lines_cut,
-        l.bytes_in, l.bytes_out, l.bytes_lost));
+    err_.write(
+        fmt::format("After {:.3f} s: {} lines heard, {} said, on all lines. Bad frames {}, too long {}, "
+                    "unknown codes {}, "
+                    "no rule {}, requests lost {}, messages lost {}, cut {}. Bytes of the main line: in {}, "
+                    "out {}, lost {}.\n",
+                    printer::to_seconds(live_->now()), c.lines_received, c.lines_sent, c.bad_frames,
+                    board_->lines_too_long(), c.unknown_codes, c.unmatched, c.requests_lost, c.messages_lost,
+                    c.lines_cut, l.bytes_in, l.bytes_out, l.bytes_lost));
     for (const fault::FaultStatus& status : link_->list()) {
         err_.write(host::fault_sentence(status) + "\n");
     }

@@ -38,7 +38,7 @@ TEST_CASE("the first line says where the board is") {
     CHECK(program.stop() == 0);
     CHECK(program.out().next() == "(end)");
     CHECK(program.errors().starts_with("This is fauxboard, an emulator: there is no real printer here."));
-    CHECK(contains(program.errors(), "lines from the screen"));
+    CHECK(contains(program.errors(), " lines heard, "));
 }
 
 TEST_CASE("a link name is there while it runs, however it is ended") {
