@@ -10,6 +10,9 @@ namespace fauxboard::screen {
 namespace {
 
 constexpr unsigned most_touches = 40;  ///< on the way to one button
+/// A status that was on its way when a button was pressed shows what was before it; the next comes within
+/// this (L3, each 4.2 s).
+constexpr SimTime status_round{5'000'000};
 constexpr std::size_t most_goals = 8;  ///< preparations of preparations
 constexpr SimTime shown_for{100'000};  ///< a frame shown to the screen is taken up within that
 
@@ -217,6 +220,11 @@ bool Tour::walk(Goal& goal) {
     if (route && goal.touches < most_touches) {
         return route->empty() ? touch(goal) : touch_on_the_way(goal, route->front());
     }
+    const bool hidden = !screen_.standpoint().hidden(button, goal.row).empty();
+    if (const SimTime known = last_touch_ + status_round + slack_; hidden && screen_.time() < known) {
+        wake_ = known;  // or when a line comes
+        return false;
+    }
     if (button.page != no_page && paths_.empty()) {
         const auto& frames = screen_.profile().pages[button.page].opened_by;
         if (goal.shown < frames.size()) {
@@ -240,6 +248,7 @@ bool Tour::touch_on_the_way(Goal& goal, const Step& step) {
     ++goal.touches;
     const Button& button = screen_.profile().buttons[step.button];
     listener_.expect(screen_, button, step.row, std::nullopt);
+    last_touch_ = screen_.time();
     const PressResult pressed = screen_.touch(step.button, step.row, std::nullopt, screen_.time());
     if (!pressed.pressed) {
         give_up(goal, pressed.sentence);
@@ -257,6 +266,7 @@ bool Tour::touch_on_the_way(Goal& goal, const Step& step) {
 bool Tour::touch(Goal& goal) {
     const Button& button = screen_.profile().buttons[goal.button];
     listener_.expect(screen_, button, goal.row, goal.input);
+    last_touch_ = screen_.time();
     const PressResult pressed = screen_.touch(goal.button, goal.row, goal.input, screen_.time());
     if (!pressed.pressed) {
         give_up(goal, pressed.sentence);
