@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <cstdlib>
 #include <fstream>
@@ -7,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "emulator/screen/tour_report.h"
+#include "protocol/framing.h"
 #include "tests/screen/harness.h"
 #include "tests/support/board_driver.h"
 
@@ -109,6 +111,41 @@ TEST_CASE("a tour against a board that is off ends, and says so of every button"
         const bool quiet = result.expected == std::vector<std::string>{"silence"};
         CHECK_MESSAGE((result.verdict == screen::TourVerdict::met) == quiet, result.sentence);
     }
+}
+
+TEST_CASE("a status that was on its way when a button was pressed hides no button from the tour") {
+    const auto press = [](bool corrected) {
+        screen::Screen screen(shipped_screen("geeetech-a30t"));
+        screen.power_on(SimTime{0});
+        screen::Tour tour(screen, {"CAS", "CAS - up"}, SimTime{0});
+        const auto status = [&](SimTime at, int sensor) {
+            screen.receive(
+                at, protocol::frame(fmt::format(
+                        "L3 PS:0 VL:0 MT:0 FT:0 AL:1 ST:{} WF:0 MR:100 FN: PG:0 TM:0 LA:0 LC:0", sensor)));
+        };
+        std::optional<SimTime> pressed;
+        for (SimTime now{0}; !tour.done() && now < std::chrono::minutes(1);
+             now += std::chrono::milliseconds(10)) {
+            tour.advance(now);
+            if (!pressed && screen.output().find("M2120 P9 S0") != std::string_view::npos) {
+                pressed = now;
+                status(now, 1);  // as it was before
+            }
+            if (corrected && pressed && now == *pressed + std::chrono::milliseconds(4200)) {
+                status(now, 0);
+            }
+            screen.clear_output();
+        }
+        CHECK(tour.done());
+        return tour.results();
+    };
+    const std::vector<screen::TourResult> late = press(true);
+    REQUIRE(late.size() == 2);
+    CHECK(late[1].verdict == screen::TourVerdict::met);
+    const std::vector<screen::TourResult> never = press(false);
+    REQUIRE(never.size() == 2);
+    CHECK(never[1].verdict == screen::TourVerdict::not_pressed);
+    CHECK(never[1].sentence.find("it is when leveling.sensor is 0, and it is 1") != std::string::npos);
 }
 
 TEST_CASE("reports: table, JSON, JUnit") {
