@@ -1,6 +1,5 @@
 #include "emulator/board/message_queue.h"
 
-#include <cstring>
 #include <optional>
 
 namespace fauxboard::board {
@@ -30,7 +29,7 @@ bool MessageQueue::push(std::string_view message) {
     if (!place || *place + message.size() > bytes_.size()) {
         return false;
     }
-    std::memcpy(bytes_.data() + *place, message.data(), message.size());
+    message.copy(bytes_.data() + *place, message.size());
     spans_[(head_ + count_) % spans_.size()] = {*place, message.size()};
     ++count_;
     return true;
