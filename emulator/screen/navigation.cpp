@@ -168,11 +168,11 @@ std::optional<std::vector<Step>> find_route_to_page(const Standpoint& from, std:
         from, [page](std::size_t here) { return here == page; }, false);
 }
 
-std::string why_no_route(const Standpoint& from, std::size_t button, std::size_t row) {
+Obstacle find_obstacle(const Standpoint& from, std::size_t button, std::size_t row) {
     const Button& wanted = from.profile.buttons[button];
     if (!wanted.rows) {
         if (std::string why = from.hidden(wanted, row); !why.empty()) {
-            return why;
+            return {why, true};
         }
     }
     std::size_t page = from.page;
@@ -182,11 +182,11 @@ std::string why_no_route(const Standpoint& from, std::size_t button, std::size_t
         const Standpoint here{from.profile, from.values, page, from.before};
         const Button& next = from.profile.buttons[step.button];
         if (std::string why = here.hidden(next, 0); !why.empty()) {
-            return fmt::format("\"{}\" cannot be reached: {}", wanted.path, why);
+            return {fmt::format("\"{}\" cannot be reached: {}", wanted.path, why), true};
         }
         page = here.destination(next.leads_to, here.scope(next, 1)).value_or(page);
         if (std::string why = here.shut(page); !why.empty()) {
-            return fmt::format("\"{}\" cannot be reached: {}", wanted.path, why);
+            return {fmt::format("\"{}\" cannot be reached: {}", wanted.path, why), false};
         }
     }
     const Page& own = from.profile.pages[wanted.page == no_page ? from.page : wanted.page];
@@ -194,7 +194,7 @@ std::string why_no_route(const Standpoint& from, std::size_t button, std::size_t
     if (!own.opened_by.empty()) {
         why += fmt::format(": its page opens by itself, on \"{}\"", own.opened_by.front());
     }
-    return why;
+    return {why, false};
 }
 
 }  // namespace fauxboard::screen

@@ -66,7 +66,13 @@ std::optional<std::vector<Step>> find_route(const Standpoint& from, std::size_t 
 /// The same to a page. Empty when it is open already.
 std::optional<std::vector<Step>> find_route_to_page(const Standpoint& from, std::size_t page);
 
-/// Why find_route() found nothing: what keeps the way shut.
-std::string why_no_route(const Standpoint& from, std::size_t button, std::size_t row);
+/// What keeps a way shut.
+struct Obstacle {
+    std::string why;
+    bool hidden = false;  ///< a button that the screen would show, were its values others
+};
+
+/// Why find_route() found nothing.
+Obstacle find_obstacle(const Standpoint& from, std::size_t button, std::size_t row);
 
 }  // namespace fauxboard::screen

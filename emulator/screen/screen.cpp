@@ -292,7 +292,7 @@ PressResult Screen::press(std::string_view path, SimTime now) {
     }
     const auto route = find_route(standpoint(), *meant.button, meant.row);
     if (!route) {
-        result.sentence = why_no_route(standpoint(), *meant.button, meant.row);
+        result.sentence = find_obstacle(standpoint(), *meant.button, meant.row).why;
         return result;
     }
     std::vector<std::string> sent;

@@ -47,7 +47,8 @@ Tour::Tour(Screen& screen, std::vector<std::string> paths, SimTime slack)
       slack_(slack),
       paths_(std::move(paths)),
       order_(paths_.size()),
-      seen_(screen.counters().lines_received) {
+      seen_(screen.counters().lines_received),
+      last_touch_(screen.time()) {
     listener_.set_slack(slack);
 }
 
@@ -220,8 +221,9 @@ bool Tour::walk(Goal& goal) {
     if (route && goal.touches < most_touches) {
         return route->empty() ? touch(goal) : touch_on_the_way(goal, route->front());
     }
-    const bool hidden = !screen_.standpoint().hidden(button, goal.row).empty();
-    if (const SimTime known = last_touch_ + status_round + slack_; hidden && screen_.time() < known) {
+    const Obstacle obstacle = find_obstacle(screen_.standpoint(), goal.button, goal.row);
+    const SimTime known = last_touch_ + status_round + slack_;
+    if (obstacle.hidden && screen_.time() < known) {
         wake_ = known;  // or when a line comes
         return false;
     }
@@ -233,7 +235,7 @@ bool Tour::walk(Goal& goal) {
             return show_frame(frames[goal.shown++]);
         }
     }
-    give_up(goal, why_no_route(screen_.standpoint(), goal.button, goal.row));
+    give_up(goal, obstacle.why);
     return true;
 }
 

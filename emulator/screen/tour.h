@@ -96,11 +96,11 @@ class Tour {
     std::size_t next_ = 0;
     std::vector<Goal> goals_;
     Listener listener_;
-    SimTime hold_{0};                     ///< nothing is done before, whatever comes
-    SimTime wake_{0};                     ///< nothing is done before, unless a line comes
-    std::optional<SimTime> limit_;        ///< of a wait for a value
-    SimTime last_touch_{-3'600'000'000};  ///< of any button; long ago at first
-    std::uint64_t seen_ = 0;              ///< lines judged so far
+    SimTime hold_{0};               ///< nothing is done before, whatever comes
+    SimTime wake_{0};               ///< nothing is done before, unless a line comes
+    std::optional<SimTime> limit_;  ///< of a wait for a value
+    std::uint64_t seen_ = 0;        ///< lines judged so far
+    SimTime last_touch_;            ///< of any button; at first, when the tour began
     std::vector<TourResult> results_;
 };
 
