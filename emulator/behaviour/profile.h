@@ -29,13 +29,13 @@ inline constexpr std::size_t channel_count = 3;
 
 /// How commands are framed on the main line.
 enum class Framing : std::uint8_t {
-    smartto,  ///< "N-0 M105*10"
-    gcode,    ///< "M105", or "N12 M105*36"; the number and the checksum are taken off and not judged
+    frames,  ///< "N-0 M105*10"; a profile says "smartto"
+    lines,   ///< "M105", or "N12 M105*36"; number and checksum are taken off and not judged; "gcode"
 };
 
 /// How the main line is spoken.
 struct LineConfig {
-    Framing framing = Framing::smartto;
+    Framing framing = Framing::frames;
     unsigned baud = 115200;
     protocol::ChecksumPolicy checksum = protocol::ChecksumPolicy::required;
     unsigned queue_lines = 64;  ///< requests waiting for their tick; more are lost, as in the board's buffer

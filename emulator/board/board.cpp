@@ -157,7 +157,7 @@ void Board::take_line(Channel channel, std::string_view line) {
     std::string_view body;
     const bool bad = !unframe(line, body);
     // Words are no commands to a board of frames, and take no tick.
-    const bool ticks = profile_->line.framing != behaviour::Framing::smartto || is_code(body);
+    const bool ticks = profile_->line.framing != behaviour::Framing::frames || is_code(body);
     Verdict verdict = Verdict::accepted;
     const bool paced = options_.pacing && channel == Channel::main;
     const bool waits = paced ? ticks : port(channel).output.size() >= output_limit;
@@ -182,7 +182,7 @@ void Board::take_line(Channel channel, std::string_view line) {
 
 /// Takes a request out of the frame that the main line has. False when its checksum is wrong.
 bool Board::unframe(std::string_view line, std::string_view& body) const {
-    if (profile_->line.framing != behaviour::Framing::smartto) {
+    if (profile_->line.framing != behaviour::Framing::frames) {
         body = protocol::unframe_host_line(line).body;
         return true;
     }

@@ -21,7 +21,7 @@ constexpr std::size_t most_host_bytes = protocol::max_line_bytes - 24;  ///< roo
 
 /// A line as the main line of the board has them.
 std::string framed(Compiler& c, const std::string& line) {
-    const bool frames = c.shared().cast.profile->line.framing == behaviour::Framing::smartto;
+    const bool frames = c.shared().cast.profile->line.framing == behaviour::Framing::frames;
     return frames ? protocol::frame(line) : line + "\r\n";
 }
 
