@@ -1,6 +1,8 @@
 #include "protocol/chitu_chunk.h"
 
 #include <algorithm>
+#include <charconv>
+#include <system_error>
 
 #include "protocol/framing.h"
 
@@ -39,6 +41,17 @@ std::size_t write_chunk(std::span<char> out, std::uint32_t offset, std::string_v
     end[4] = static_cast<char>(xor_checksum({out.data(), payload.size() + 4}));
     end[5] = chunk_mark;
     return size;
+}
+
+std::optional<std::uint32_t> resend_offset(std::string_view answer) {
+    const std::size_t last = answer.find_last_of("0123456789");
+    if (!answer.starts_with("resend") || last == std::string_view::npos) {
+        return std::nullopt;
+    }
+    const std::size_t first = answer.find_last_not_of("0123456789", last) + 1;
+    std::uint32_t offset = 0;
+    const auto [end, error] = std::from_chars(answer.data() + first, answer.data() + last + 1, offset);
+    return error == std::errc{} ? std::optional(offset) : std::nullopt;
 }
 
 }  // namespace fauxboard::protocol

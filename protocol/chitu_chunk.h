@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -35,5 +36,9 @@ Chunk read_chunk(std::string_view datagram);
 /// or the payload is longer than `max_chunk_payload`. A payload of no bytes can be written: it is what a
 /// download ends with.
 std::size_t write_chunk(std::span<char> out, std::uint32_t offset, std::string_view payload);
+
+/// The offset that a board asks for again, in both its forms: "resend 3840", and with the offset that came in
+/// front of it, "resend 1280,offset error:3840". Nothing when `answer` is no such request.
+std::optional<std::uint32_t> resend_offset(std::string_view answer);
 
 }  // namespace fauxboard::protocol

@@ -132,20 +132,27 @@ std::vector<RecordedLine> load_recording(const std::filesystem::path& file) {
     return load_recording(in, file.string());
 }
 
+namespace {
+
+/// `peer`: of a datagram, else 0.
+std::string line_text(printer::SimTime t, std::string_view from, std::uint64_t peer, std::string_view key,
+                      std::string_view bytes) {
+    const std::string text = nlohmann::json(behaviour::from_wire(bytes)).dump(-1, ' ', true);
+    const std::string who = peer == 0 ? std::string{} : fmt::format(", \"peer\": {}", peer);
+    const auto us = t.count();
+    return fmt::format("{{\"t\": {}.{:06}, \"from\": \"{}\"{}, \"{}\": {}}}\n", us / 1'000'000,
+                       us % 1'000'000, from, who, key, text);
+}
+
+}  // namespace
+
 std::string recording_line(printer::SimTime t, std::string_view from, std::string_view key,
                            std::string_view bytes) {
-    const std::string text = nlohmann::json(behaviour::from_wire(bytes)).dump(-1, ' ', true);
-    const auto us = t.count();
-    return fmt::format("{{\"t\": {}.{:06}, \"from\": \"{}\", \"{}\": {}}}\n", us / 1'000'000, us % 1'000'000,
-                       from, key, text);
+    return line_text(t, from, 0, key, bytes);
 }
 
 std::string recording_line(const RecordedLine& line) {
-    std::string text = recording_line(line.t, from_name(line.from), line.key(), line.bytes);
-    if (line.is_datagram()) {
-        text.insert(text.find(", \"datagram\""), fmt::format(", \"peer\": {}", line.peer));
-    }
-    return text;
+    return line_text(line.t, from_name(line.from), line.peer, line.key(), line.bytes);
 }
 
 }  // namespace fauxboard::host

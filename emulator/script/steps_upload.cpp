@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
+#include <optional>
 #include <vector>
 
 #include "emulator/behaviour/wire_text.h"
@@ -22,19 +22,6 @@ constexpr std::size_t most_name_bytes = 200;
 constexpr int most_tries = 100;
 /// Who sends: a number that no socket gives out.
 constexpr std::uint64_t sender = printer::Transfer::usb_side - 1;
-
-/// Of "resend 3840", and of "resend 1280,offset error:3840": the last number.
-std::size_t place_in(std::string_view answer) {
-    const std::size_t last = answer.find_last_of("0123456789");
-    if (last == std::string_view::npos) {
-        return 0;
-    }
-    const std::size_t before = answer.find_last_not_of("0123456789", last);
-    std::size_t place = 0;
-    std::from_chars(answer.data() + (before == std::string_view::npos ? 0 : before + 1),
-                    answer.data() + last + 1, place);
-    return place;
-}
 
 /// Sends a file as slicers do: a piece, an answer. Past sockets and their faults, at one moment.
 class Sender {
@@ -59,8 +46,8 @@ class Sender {
             ask({room.data(), bytes});
             if (heard_ok()) {
                 at += piece.size();
-            } else if (!answers_.empty() && answers_[0].starts_with("resend")) {
-                at = std::min(place_in(answers_[0]), content.size());
+            } else if (const auto again = asked_again()) {
+                at = std::min<std::size_t>(*again, content.size());
             } else if (!answers_.empty()) {
                 return refused(fmt::format("the piece from {} on", at));
             }
@@ -83,6 +70,9 @@ class Sender {
                                [&](const std::string& answer) { return answer.starts_with(start); });
         };
         return says("ok") && !says("Error") && !says("resend");
+    }
+    std::optional<std::uint32_t> asked_again() const {
+        return answers_.empty() ? std::nullopt : protocol::resend_offset(answers_[0]);
     }
     std::string refused(const std::string& what) const {
         if (answers_.empty()) {

@@ -26,11 +26,9 @@ struct BigFile {
         made = make_resin_file(wishes);
     }
     std::string at(std::uint64_t offset, std::size_t size) const {
-        std::string out(size, '\0');
-        for (std::size_t i = 0; i < size; ++i) {
-            const std::uint64_t place = offset + i;
-            out[i] = place < made.bytes.size() ? made.bytes[place]
-                                               : static_cast<char>((place * 2654435761U >> 13U) & 0xFF);
+        std::string out = pattern(offset, size);
+        if (offset < made.bytes.size()) {
+            made.bytes.copy(out.data(), size, offset);
         }
         return out;
     }

@@ -18,19 +18,6 @@ using Texts = std::vector<std::string>;
 
 const std::string position = "ok C: X:0.000000 Y:0.000000 Z:0.000000 E:0.000000\r\n";
 
-std::string chunk(std::uint32_t offset, std::string_view payload) {
-    std::array<char, protocol::max_chunk_bytes> room{};
-    return {room.data(), protocol::write_chunk(room, offset, payload)};
-}
-
-std::string pattern(std::uint64_t at, std::size_t size) {
-    std::string out(size, '\0');
-    for (std::size_t i = 0; i < size; ++i) {
-        out[i] = static_cast<char>(((at + i) * 2654435761U >> 11U) & 0xFF);
-    }
-    return out;
-}
-
 }  // namespace
 
 TEST_CASE("chitu faults: stray ok N: lines come before or behind the answer, as often as asked for") {

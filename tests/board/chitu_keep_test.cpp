@@ -3,11 +3,9 @@
 
 #include <doctest/doctest.h>
 
-#include <array>
-#include <optional>
-
 #include "protocol/chitu_chunk.h"
 #include "tests/support/chitu.h"
+#include "tests/support/memory_eeprom.h"
 #include "tests/support/resin_bench.h"
 
 using namespace fauxboard;
@@ -18,20 +16,6 @@ namespace {
 using Texts = std::vector<std::string>;
 
 const std::string printing = "Error:It's printing now!\r\n";
-
-std::string chunk(std::uint32_t offset, std::string_view payload) {
-    std::array<char, protocol::max_chunk_bytes> room{};
-    return {room.data(), protocol::write_chunk(room, offset, payload)};
-}
-
-struct MemoryEeprom final : printer::EepromStore {
-    std::optional<std::string> image;
-    std::optional<std::string> load() override { return image; }
-    bool save(std::string_view text) override {
-        image = std::string(text);
-        return true;
-    }
-};
 
 /// A stick with a file that can be printed, in memory and whole.
 struct Stick {

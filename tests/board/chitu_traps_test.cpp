@@ -22,11 +22,6 @@ std::string first_line(const std::string& bytes) {
     return bytes.substr(0, bytes.find('\n') + 1);
 }
 
-std::string chunk(std::uint32_t offset, std::string_view payload) {
-    std::array<char, protocol::max_chunk_bytes> room{};
-    return {room.data(), protocol::write_chunk(room, offset, payload)};
-}
-
 }  // namespace
 
 TEST_CASE("chitu trap 1: M4002 ends with LF alone, M4006 with CR LF and a name, idle too") {

@@ -5,26 +5,12 @@
 #include <cmath>
 
 #include "tests/support/board_driver.h"
+#include "tests/support/memory_eeprom.h"
 
 using namespace fauxboard;
 using namespace fauxboard::testing;
 
 namespace {
-
-/// An EEPROM that outlives its board.
-struct MemoryEeprom final : printer::EepromStore {
-    std::optional<std::string> image;
-    int saves = 0;
-    bool works = true;
-    std::optional<std::string> load() override { return image; }
-    bool save(std::string_view text) override {
-        ++saves;
-        if (works) {
-            image = std::string(text);
-        }
-        return works;
-    }
-};
 
 BoardDriver::Setup with(MemoryEeprom& eeprom) {
     BoardDriver::Setup setup;

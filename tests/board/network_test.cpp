@@ -3,7 +3,6 @@
 
 #include <doctest/doctest.h>
 
-#include <array>
 #include <deque>
 #include <string>
 
@@ -83,11 +82,6 @@ struct Network {
         return found == nullptr ? "(none)" : *found;
     }
 };
-
-std::string chunk(std::uint32_t offset, std::string_view payload) {
-    std::array<char, protocol::max_chunk_bytes> room{};
-    return {room.data(), protocol::write_chunk(room, offset, payload)};
-}
 
 std::string noise(std::size_t size, std::uint64_t seed) {
     std::mt19937_64 random(seed);

@@ -30,10 +30,7 @@ struct File {
         wishes.bottom_exposure_s = 60;
         const testing::MadeResinFile made = testing::make_resin_file(wishes);
         ends.assign(made.layer_ends.begin(), made.layer_ends.end());
-        bytes = made.bytes;
-        for (std::uint64_t i = bytes.size(); i < file_bytes; ++i) {
-            bytes += static_cast<char>(i * 2654435761U >> 13U & 0xFF);
-        }
+        bytes = made.bytes + testing::pattern(made.bytes.size(), file_bytes - made.bytes.size());
     }
     bool is_place(unsigned long place) const {
         return place == 0 || std::find(ends.begin(), ends.end(), place) != ends.end();

@@ -84,5 +84,15 @@ TEST_CASE("chunk: what does not fit is not written") {
     CHECK(write_chunk(big, 0, std::string(max_chunk_payload + 1, 'a')) == 0);
 }
 
+TEST_CASE("chunk: what a board asks for again, in both forms") {
+    CHECK(resend_offset("resend 3840\r\n") == 3840U);
+    CHECK(resend_offset("resend 1280,offset error:2560\r\n") == 2560U);
+    CHECK(resend_offset("resend 4294967295") == 0xFFFFFFFFU);
+    CHECK_FALSE(resend_offset("resend 4294967296"));
+    CHECK_FALSE(resend_offset("resend"));
+    CHECK_FALSE(resend_offset("ok 3840"));
+    CHECK_FALSE(resend_offset(""));
+}
+
 }  // namespace
 }  // namespace fauxboard::protocol

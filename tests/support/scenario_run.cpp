@@ -14,6 +14,7 @@
 #include "emulator/host/script_host.h"
 #include "emulator/link/event_loop.h"
 #include "emulator/printer/memory_volume.h"
+#include "tests/support/memory_eeprom.h"
 // After event_loop.h, which see.
 #include <asio/executor_work_guard.hpp>
 
@@ -60,16 +61,6 @@ struct LineFaults final : control::FaultControl {
     void clear() override { line.clear(); }
     std::vector<fault::FaultStatus> list() override { return line.list(); }
     host::FaultyLink& line;
-};
-
-/// Keeps the board's settings as a file would.
-struct MemoryEeprom final : printer::EepromStore {
-    std::optional<std::string> load() override { return image; }
-    bool save(std::string_view text) override {
-        image = text;
-        return true;
-    }
-    std::optional<std::string> image;
 };
 
 }  // namespace

@@ -15,17 +15,20 @@ bool starts_ok(const std::string& answer) {
     return answer.starts_with("ok");
 }
 
-/// Of "resend 3840", and of "resend 1280,offset error:3840": the last number.
-std::uint64_t place_in(const std::string& answer) {
-    const std::size_t last = answer.find_last_of("0123456789");
-    if (last == std::string::npos) {
-        return 0;
-    }
-    const std::size_t before = answer.find_last_not_of("0123456789", last);
-    return std::stoull(answer.substr(before == std::string::npos ? 0 : before + 1));
+}  // namespace
+
+std::string chunk(std::uint32_t offset, std::string_view payload) {
+    std::array<char, protocol::max_chunk_bytes> room{};
+    return {room.data(), protocol::write_chunk(room, offset, payload)};
 }
 
-}  // namespace
+std::string pattern(std::uint64_t at, std::size_t size) {
+    std::string out(size, '\0');
+    for (std::size_t i = 0; i < size; ++i) {
+        out[i] = static_cast<char>(((at + i) * 2654435761U >> 11U) & 0xFF);
+    }
+    return out;
+}
 
 TransferClient::Luck TransferClient::draw() {
     if (static_cast<double>(random_() >> 11) >= trouble_.share * 0x1p53) {
@@ -75,21 +78,18 @@ std::string TransferClient::upload(const std::string& name, std::uint64_t size, 
         return "M28: " + answer;
     }
     std::uint64_t at = 0;
-    std::array<char, protocol::max_chunk_bytes> room{};
     for (int tries = 0; at < size; ++tries) {
         if (tries == most_tries) {
             return "no progress at " + std::to_string(at);
         }
         const auto piece =
             static_cast<std::size_t>(std::min<std::uint64_t>(protocol::max_chunk_payload, size - at));
-        const std::size_t bytes =
-            protocol::write_chunk(room, static_cast<std::uint32_t>(at), content(at, piece));
-        const std::string answer = send_chunk({room.data(), bytes});
+        const std::string answer = send_chunk(chunk(static_cast<std::uint32_t>(at), content(at, piece)));
         const std::uint64_t before = at;
         if (starts_ok(answer)) {
             at += piece;
-        } else if (answer.starts_with("resend")) {
-            at = place_in(answer);
+        } else if (const auto again = protocol::resend_offset(answer)) {
+            at = *again;
         } else if (!answer.empty()) {
             return "chunk at " + std::to_string(at) + ": " + answer;
         }

@@ -8,6 +8,11 @@
 
 namespace fauxboard::testing {
 
+/// A piece of a file as it goes over the network.
+std::string chunk(std::uint32_t offset, std::string_view payload);
+/// The bytes from `at` on of a file without end in which hardly two places are alike.
+std::string pattern(std::uint64_t at, std::size_t size);
+
 /// Sends files to a ChiTu board and fetches them, datagram by datagram, as the slicers' clients do: one
 /// chunk, one answer. What it sends and hears is lost, damaged or repeated by chance on the way, the same for
 /// the same seed.
