@@ -33,8 +33,6 @@
 #include "tools/report.h"
 #include "tools/run_options.h"
 #include "tools/run_script.h"
-// After event_loop.h, which see.
-#include <asio/signal_set.hpp>
 
 namespace fauxboard::tools {
 namespace {
@@ -72,7 +70,7 @@ class Run {
           json_(out_),
           profile_(scenario_ ? scenario_->cast.profile : host::load_profile_by_name(options.profile)),
           clock_(host::make_clock(loop_, options.speed)),
-          signals_(loop_, SIGINT, SIGTERM, SIGHUP),
+          signals_(loop_, {SIGINT, SIGTERM, SIGHUP}, [this](int number) { on_signal(number); }),
           watch_(loop_, [this] { reload(); }) {}
 
     ExitCode operator()();
@@ -94,10 +92,11 @@ class Run {
     void say(board::Level level, std::string_view text);
     void reload();
     void say_summary();
+    void on_signal(int number);
 
     const RunOptions& options_;
     std::shared_ptr<const script::Scenario> scenario_;
-    asio::io_context loop_{1};
+    link::EventLoop loop_;
     host::TextOutput out_;
     host::TextOutput err_;
     host::LineLog log_;
@@ -122,7 +121,7 @@ class Run {
     std::optional<LineFaults> faults_;
     std::optional<host::ControlServer> control_;
     std::optional<host::ScriptHost> script_;
-    asio::signal_set signals_;
+    link::Signals signals_;
     host::ProfileWatch watch_;
 };
 
@@ -323,18 +322,15 @@ void Run::say_summary() {
     }
 }
 
+void Run::on_signal(int number) {
+    if (script_) {
+        script_->interrupt(number == SIGINT ? "by SIGINT" : number == SIGTERM ? "by SIGTERM" : "by SIGHUP");
+    }
+    loop_.stop();
+}
+
 ExitCode Run::operator()() {
     set_up();
-    signals_.async_wait([this](const asio::error_code& error, int number) {
-        if (!error) {
-            if (script_) {
-                script_->interrupt(number == SIGINT    ? "by SIGINT"
-                                   : number == SIGTERM ? "by SIGTERM"
-                                                       : "by SIGHUP");
-            }
-            loop_.stop();
-        }
-    });
     open_control();
     open_script();
     open_network();

@@ -21,7 +21,10 @@ ScreenSession::ScreenSession(const ScreenOptions& options)
     : options_(options),
       screen_(host::load_screen_by_name(options.screen)),
       clock_(host::make_clock(loop_, options.speed)),
-      signals_(loop_, SIGINT, SIGTERM, SIGHUP) {
+      signals_(loop_, {SIGINT, SIGTERM, SIGHUP}, [this](int) {
+          interrupted_ = true;
+          finish(ExitCode::failed);
+      }) {
     if (!options.record.empty()) {
         recorder_.emplace(options.record, [](host::SimTime, std::string_view text) {
             complain("screen", ExitCode::bad_input, text);
@@ -40,12 +43,6 @@ std::unique_ptr<link::Link> ScreenSession::make_link() {
 }
 
 ExitCode ScreenSession::run(host::ScreenUser& user) {
-    signals_.async_wait([this](const asio::error_code& error, int) {
-        if (!error) {
-            interrupted_ = true;
-            finish(ExitCode::failed);
-        }
-    });
     live_.emplace(screen_, *link_, *clock_, &observers_, &user);
     link_->open(*live_);
     live_->start();

@@ -11,8 +11,6 @@
 #include "emulator/screen/screen.h"
 #include "tools/commands.h"
 #include "tools/screen_options.h"
-// After event_loop.h, which see.
-#include <asio/signal_set.hpp>
 
 namespace fauxboard::tools {
 
@@ -35,7 +33,7 @@ class ScreenSession {
     void observe(host::LiveObserver& observer) { observers_.add(observer); }
     screen::Screen& screen() { return screen_; }
     host::LiveScreen& live() { return *live_; }
-    asio::io_context& loop() { return loop_; }
+    link::EventLoop& loop() { return loop_; }
     const ScreenOptions& options() const { return options_; }
     /// "pty /dev/pts/5"
     std::string line_name() const { return link_->describe(); }
@@ -53,14 +51,14 @@ class ScreenSession {
     std::unique_ptr<link::Link> make_link();
 
     const ScreenOptions& options_;
-    asio::io_context loop_{1};
+    link::EventLoop loop_;
     host::Observers observers_;
     screen::Screen screen_;
     std::optional<host::Recorder> recorder_;
     std::unique_ptr<host::Clock> clock_;
     std::unique_ptr<link::Link> link_;
     std::optional<host::LiveScreen> live_;
-    asio::signal_set signals_;
+    link::Signals signals_;
     ExitCode result_ = ExitCode::ok;
     bool interrupted_ = false;
 };

@@ -68,7 +68,7 @@ std::string objection(const std::string& command) {
 /// Sends the commands over an open link and shows the talk.
 class Talk final : public link::LinkListener {
   public:
-    Talk(const SendOptions& options, asio::io_context& loop)
+    Talk(const SendOptions& options, link::EventLoop& loop)
         : options_(options),
           loop_(loop),
           clock_(host::make_clock(loop, host::Speed{})),
@@ -149,7 +149,7 @@ class Talk final : public link::LinkListener {
     }
 
     const SendOptions& options_;
-    asio::io_context& loop_;
+    link::EventLoop& loop_;
     std::unique_ptr<host::Clock> clock_;
     std::unique_ptr<host::Alarm> alarm_;
     host::TextOutput out_;
@@ -172,7 +172,7 @@ ExitCode send(const SendOptions& options) {
         }
     }
     try {
-        asio::io_context loop{1};
+        link::EventLoop loop;
         const std::string port = options.port == "auto" ? link::pick_auto_port() : options.port;
         const std::unique_ptr<link::Link> link = options.tcp.empty()
                                                      ? link::make_port_link(loop, port, options.baud)

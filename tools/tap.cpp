@@ -26,8 +26,6 @@
 #include "emulator/link/event_loop.h"
 #include "tools/option_values.h"
 #include "tools/report.h"
-// After event_loop.h, which see.
-#include <asio/signal_set.hpp>
 
 namespace fauxboard::tools {
 namespace {
@@ -59,7 +57,7 @@ class TapRun final : public host::TapObserver {
           log_(err_, options.log),
           clock_(host::make_clock(loop_, {})),
           alarm_(clock_->make_alarm([this] { wake(); })),
-          signals_(loop_, SIGINT, SIGTERM, SIGHUP) {}
+          signals_(loop_, {SIGINT, SIGTERM, SIGHUP}, [this](int) { loop_.stop(); }) {}
 
     void operator()();
 
@@ -87,7 +85,7 @@ class TapRun final : public host::TapObserver {
 
     const TapOptions& options_;
     host::TapEnd ends_[2];
-    asio::io_context loop_{1};
+    link::EventLoop loop_;
     host::TextOutput out_{STDOUT_FILENO};
     host::TextOutput err_{STDERR_FILENO};
     host::TapLog log_;
@@ -102,7 +100,7 @@ class TapRun final : public host::TapObserver {
     std::optional<host::FaultyLink> faulty_;  ///< around the screen's end
     std::optional<host::TapTalk> talk_;
     std::optional<host::Tap> tap_;
-    asio::signal_set signals_;
+    link::Signals signals_;
     SimTime next_report_{report_period};
     std::uint64_t reported_ = 0;  ///< TapDelay::count() then
 };
@@ -205,11 +203,6 @@ void TapRun::wake() {
 
 void TapRun::operator()() {
     set_up();
-    signals_.async_wait([this](const asio::error_code& error, int) {
-        if (!error) {
-            loop_.stop();
-        }
-    });
     clock_->start();
     tap_->open();
     say_ready();

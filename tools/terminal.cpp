@@ -38,13 +38,13 @@ void choose_utf8() {
     }
 }
 
-/// The terminal once more: the event loop makes what it waits for non-blocking, and on stdin that would be
-/// the shell's terminal, too, and stay when we are gone.
-int open_again() {
+/// The terminal once more: what the event loop waits for does not block, and on stdin that would be the
+/// shell's terminal, too, and stay when we are gone.
+link::UniqueFd open_again() {
     std::array<char, 256> name{};
     const bool known = ::ttyname_r(STDIN_FILENO, name.data(), name.size()) == 0;
-    const int fd = ::open(known ? name.data() : "/dev/tty", O_RDONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
-    if (fd < 0) {
+    link::UniqueFd fd(::open(known ? name.data() : "/dev/tty", O_RDONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+    if (!fd) {
         throw host::HostError(fmt::format("The terminal {} cannot be opened ({}). Use press, tour and show.",
                                           known ? name.data() : "/dev/tty",
                                           std::system_category().message(errno)));
@@ -171,42 +171,29 @@ bool Terminal::here() {
     return ::isatty(STDIN_FILENO) == 1 && ::isatty(STDOUT_FILENO) == 1;
 }
 
-Terminal::Terminal(asio::io_context& loop, Events events)
+Terminal::Terminal(link::EventLoop& loop, Events events)
     : events_(std::move(events)),
-      resized_(loop, SIGWINCH),  // before ncurses, which leaves a signal alone that has its handler
+      resized_(loop, {SIGWINCH}, [this](int) { on_resized(); }),  // so that ncurses' handler gets none
       curses_(std::make_unique<Curses>()),
-      keys_(loop, open_again()) {
-    wait_for_keys();
-    wait_for_resize();
+      terminal_(open_again()),
+      keys_(loop, [this] { read_keys(); }) {
+    keys_.start(terminal_.get());
 }
 
 Terminal::~Terminal() = default;
 
-void Terminal::wait_for_keys() {
-    keys_.async_wait(asio::posix::stream_descriptor::wait_read, [this](const asio::error_code& error) {
-        if (!error) {
-            read_keys();
-        }
-    });
-}
-
-void Terminal::wait_for_resize() {
-    resized_.async_wait([this](const asio::error_code& error, int) {
-        if (error) {
-            return;
-        }
-        winsize size{};
-        if (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_row != 0 && size.ws_col != 0) {
-            ::resizeterm(size.ws_row, size.ws_col);
-        }
-        wait_for_resize();
-        events_.on_resize();
-    });
+void Terminal::on_resized() {
+    winsize size{};
+    if (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_row != 0 && size.ws_col != 0) {
+        ::resizeterm(size.ws_row, size.ws_col);
+    }
+    events_.on_resize();
 }
 
 void Terminal::read_keys() {
     int waiting = 0;
     if (::ioctl(STDIN_FILENO, FIONREAD, &waiting) != 0 || waiting == 0) {
+        keys_.stop();
         events_.on_hangup();
         return;
     }
@@ -219,7 +206,7 @@ void Terminal::read_keys() {
             events_.on_key(*key);
         }
     }
-    wait_for_keys();
+    keys_.drained();
 }
 
 int Terminal::columns() const {

@@ -6,10 +6,8 @@
 #include <vector>
 
 #include "emulator/link/event_loop.h"
+#include "emulator/link/unique_fd.h"
 #include "emulator/screen/console.h"
-// After event_loop.h, which see.
-#include <asio/posix/stream_descriptor.hpp>
-#include <asio/signal_set.hpp>
 
 namespace fauxboard::tools {
 
@@ -27,7 +25,7 @@ class Terminal {
     static bool here();
 
     /// Takes the terminal over. Throws host::HostError when it knows no way to draw on it.
-    Terminal(asio::io_context& loop, Events events);
+    Terminal(link::EventLoop& loop, Events events);
     ~Terminal();
     Terminal(const Terminal&) = delete;
     Terminal& operator=(const Terminal&) = delete;
@@ -39,14 +37,14 @@ class Terminal {
   private:
     struct Curses;  ///< its header's macros stay in terminal.cpp
 
-    void wait_for_keys();
-    void wait_for_resize();
+    void on_resized();
     void read_keys();
 
     Events events_;
-    asio::signal_set resized_;
+    link::Signals resized_;
     std::unique_ptr<Curses> curses_;
-    asio::posix::stream_descriptor keys_;
+    link::UniqueFd terminal_;
+    link::Watch keys_;
 };
 
 }  // namespace fauxboard::tools

@@ -84,7 +84,8 @@ namespace {
 
 class RealClock final : public Clock {
   public:
-    RealClock(asio::io_context& context, double speed) : context_(context), timer_(context), speed_(speed) {}
+    RealClock(link::EventLoop& loop, double speed)
+        : loop_(loop), timer_(loop, [this] { ring(); }), speed_(speed) {}
 
     void start() override {
         origin_ = std::chrono::steady_clock::now();
@@ -92,7 +93,7 @@ class RealClock final : public Clock {
         arm(earliest());
     }
 
-    void run() override { context_.run(); }
+    void run() override { loop_.run(); }
 
   private:
     static constexpr double longest_wait_us = 3e15;  // 95 years
@@ -120,14 +121,12 @@ class RealClock final : public Clock {
             return;
         }
         armed_ = when;
-        timer_.expires_at(origin_ +
-                          std::chrono::microseconds(static_cast<std::int64_t>(std::max(real_us, 0.0))));
-        timer_.async_wait([this](const asio::error_code& error) {
-            if (!error) {
-                armed_ = never;
-                ring_due();
-            }
-        });
+        timer_.at(origin_ + std::chrono::microseconds(static_cast<std::int64_t>(std::max(real_us, 0.0))));
+    }
+
+    void ring() {
+        armed_ = never;
+        ring_due();
     }
 
     void skipped(SimTime by) override {
@@ -135,8 +134,8 @@ class RealClock final : public Clock {
         armed_ = never;  // the timer is for a moment that comes sooner now
     }
 
-    asio::io_context& context_;
-    asio::steady_timer timer_;
+    link::EventLoop& loop_;
+    link::Timer timer_;
     double speed_;
     std::chrono::steady_clock::time_point origin_;
     bool started_ = false;
@@ -146,26 +145,28 @@ class RealClock final : public Clock {
 
 class JumpingClock final : public Clock {
   public:
-    explicit JumpingClock(asio::io_context& context) : context_(context) {}
+    explicit JumpingClock(link::EventLoop& loop) : loop_(loop) {}
 
     void start() override {}
 
     void run() override {
         SimTime next = never;
-        while (!context_.stopped()) {
+        while (!loop_.stopped()) {
             next = earliest();
-            for (int i = 0; i < steps_per_poll && next != never && !context_.stopped(); ++i) {
+            for (int i = 0; i < steps_per_poll && next != never && !loop_.stopped(); ++i) {
                 now_ = std::max(now_, next);
                 ring_due();
                 next = earliest();
             }
-            if (context_.stopped()) {
+            if (loop_.stopped()) {
                 return;
             }
             if (next == never) {
-                context_.run_one();
+                if (!loop_.run_one()) {
+                    return;
+                }
             } else {
-                context_.poll();
+                loop_.poll();
             }
         }
     }
@@ -177,17 +178,17 @@ class JumpingClock final : public Clock {
     void arm(SimTime) override {}
     void skipped(SimTime by) override { now_ += by; }
 
-    asio::io_context& context_;
+    link::EventLoop& loop_;
     SimTime now_{0};
 };
 
 }  // namespace
 
-std::unique_ptr<Clock> make_clock(asio::io_context& context, Speed speed) {
+std::unique_ptr<Clock> make_clock(link::EventLoop& loop, Speed speed) {
     if (speed.max) {
-        return std::make_unique<JumpingClock>(context);
+        return std::make_unique<JumpingClock>(loop);
     }
-    return std::make_unique<RealClock>(context, speed.factor);
+    return std::make_unique<RealClock>(loop, speed.factor);
 }
 
 SimTime real_time() {

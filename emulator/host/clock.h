@@ -8,8 +8,8 @@
 #include "emulator/host/time_text.h"
 #include "emulator/printer/sim_time.h"
 
-namespace asio {
-class io_context;
+namespace fauxboard::link {
+class EventLoop;
 }
 
 namespace fauxboard::host {
@@ -41,7 +41,8 @@ class Alarm {
 };
 
 /// Where virtual time comes from, and the alarms that go with it. clock.cpp is the only code of the project
-/// that reads the real clock. Alarms ring in the order of their times, of equal times the one made first.
+/// that reads the real clock, but for the event loop's timers. Alarms ring in the order of their times, of
+/// equal times the one made first.
 class Clock {
   public:
     Clock() = default;
@@ -88,8 +89,8 @@ class Clock {
 };
 
 /// Real time, scaled; or, at Speed::max, time that jumps from one alarm to the next and looks at the event
-/// loop's descriptors now and then. `context` outlives it.
-std::unique_ptr<Clock> make_clock(asio::io_context& context, Speed speed);
+/// loop's descriptors now and then. `loop` outlives it.
+std::unique_ptr<Clock> make_clock(link::EventLoop& loop, Speed speed);
 
 /// Real time, from some moment on: for limits in real time, never for the board.
 SimTime real_time();

@@ -4,17 +4,19 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <chrono>
 #include <optional>
 #include <utility>
 
 #include "emulator/control/session.h"
+#include "emulator/link/socket_io.h"
 
 namespace fauxboard::host {
 namespace {
 
 using control::Session;
-using Socket = link::LocalListener::Socket;
+using link::UniqueFd;
 
 /// Virtual time that may be skipped before the event loop gets its turn.
 constexpr SimTime skip_at_once = std::chrono::minutes(1);
@@ -24,13 +26,16 @@ constexpr SimTime skip_at_once = std::chrono::minutes(1);
 /// A session on a socket. Never waits: what the client does not read stays here, within the session's bounds.
 class ControlServer::Client : public std::enable_shared_from_this<Client> {
   public:
-    Client(ControlServer& server, Socket socket) : server_(server), socket_(std::move(socket)) {
-        asio::error_code ignored;  // then writes could wait; they are small, and the next one tells
-        socket_.non_blocking(true, ignored);
+    Client(ControlServer& server, UniqueFd socket)
+        : server_(server),
+          socket_(std::move(socket)),
+          watch_(
+              server.parts_.loop, [this] { read(); }, [this] { pump(); }) {
         session_.emplace(server.hub_, [this] { pump_soon(); });
     }
 
-    void start() { read(); }
+    /// Throws link::LinkError when the event loop has no room for it.
+    void start() { watch_.start(socket_.get()); }
     /// As far as it goes without waiting; then the socket is closed.
     void end() {
         if (session_) {
@@ -43,10 +48,11 @@ class ControlServer::Client : public std::enable_shared_from_this<Client> {
   private:
     /// The session wakes us from inside the board's calls, where nothing may be done.
     void pump_soon() {
-        asio::post(socket_.get_executor(), [self = shared_from_this()] { self->pump(); });
+        server_.parts_.loop.post([self = shared_from_this()] { self->pump(); });
     }
 
     void pump() {
+        const auto self = shared_from_this();  // leave() may drop the last one
         if (!session_) {
             return;
         }
@@ -55,7 +61,7 @@ class ControlServer::Client : public std::enable_shared_from_this<Client> {
             server_.parts_.say("a client of the control channel does not read what it asked for; dropped");
         } else if (!flush() || !session_->over() || !written()) {
             if (session_) {
-                read();
+                watch_.hold(ended_ || !session_->wants_input());
             }
             return;
         }
@@ -74,13 +80,14 @@ class ControlServer::Client : public std::enable_shared_from_this<Client> {
                     return true;
                 }
             }
-            asio::error_code error;
-            at_ += socket_.write_some(asio::buffer(writing_) + at_, error);
-            if (error == asio::error::would_block) {
-                wait_writable();
+            const ssize_t written =
+                link::write_socket(socket_.get(), writing_.data() + at_, writing_.size() - at_);
+            if (written >= 0) {
+                at_ += static_cast<std::size_t>(written);
+            } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
+                watch_.await_writable();
                 return true;
-            }
-            if (error) {
+            } else if (errno != EINTR) {
                 leave();
                 return false;
             }
@@ -88,47 +95,26 @@ class ControlServer::Client : public std::enable_shared_from_this<Client> {
         return false;
     }
 
-    void wait_writable() {
-        if (std::exchange(waiting_, true)) {
-            return;
-        }
-        socket_.async_wait(Socket::wait_write, [self = shared_from_this()](const asio::error_code& error) {
-            self->waiting_ = false;
-            if (!error) {
-                self->pump();
-            }
-        });
-    }
-
     void read() {
-        if (!session_->wants_input() || std::exchange(reading_, true)) {
-            return;
-        }
-        socket_.async_read_some(asio::buffer(buffer_),
-                                [self = shared_from_this()](const asio::error_code& error, std::size_t size) {
-                                    self->reading_ = false;
-                                    self->on_read(error, size);
-                                });
-    }
-
-    void on_read(const asio::error_code& error, std::size_t size) {
-        if (!session_) {
-            return;
-        }
-        if (error == asio::error::eof) {
+        const auto self = shared_from_this();  // leave() may drop the last one
+        const ssize_t size = link::read_socket(socket_.get(), buffer_.data(), buffer_.size());
+        if (size > 0) {
+            session_->receive({buffer_.data(), static_cast<std::size_t>(size)});
+        } else if (size == 0) {
+            ended_ = true;
             session_->finish();
-        } else if (error) {
+        } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
+            return watch_.drained();
+        } else if (errno != EINTR) {
             return leave();
-        } else {
-            session_->receive({buffer_.data(), size});
         }
         pump();
     }
 
     void close() {
         session_.reset();
-        asio::error_code ignored;
-        socket_.close(ignored);
+        watch_.stop();
+        socket_.reset();
     }
 
     void leave() {
@@ -137,13 +123,13 @@ class ControlServer::Client : public std::enable_shared_from_this<Client> {
     }
 
     ControlServer& server_;  ///< valid as long as there is a session
-    Socket socket_;
+    UniqueFd socket_;
+    link::Watch watch_;
     std::optional<Session> session_;
     std::array<char, 4096> buffer_{};
     std::string writing_;
     std::size_t at_ = 0;  ///< so much of it is written
-    bool reading_ = false;
-    bool waiting_ = false;
+    bool ended_ = false;  ///< the client has said all it will
 };
 
 // The server.
@@ -153,7 +139,7 @@ ControlServer::ControlServer(Parts parts)
     : parts_(std::move(parts)),
       hub_(*this),
       listener_(
-          parts_.context, [this](Socket socket) { take(std::move(socket)); },
+          parts_.loop, [this](UniqueFd socket) { take(std::move(socket)); },
           [this](std::string_view text) { parts_.say(text); }) {
     parts_.live.follow([this](SimTime now) { return hub_.on_moved(now); });
 }
@@ -174,23 +160,26 @@ void ControlServer::close() {
     }
 }
 
-void ControlServer::take(Socket socket) {
+void ControlServer::take(UniqueFd socket) {
     if (clients_.size() >= most_clients) {
-        return turn_away(std::move(socket));
+        return turn_away(socket);
     }
-    clients_.push_back(std::make_shared<Client>(*this, std::move(socket)));
-    clients_.back()->start();
+    const auto client = std::make_shared<Client>(*this, std::move(socket));
+    try {
+        client->start();
+        clients_.push_back(client);
+    } catch (const link::LinkError& error) {
+        parts_.say(error.what());
+    }
 }
 
-void ControlServer::turn_away(Socket socket) const {
+void ControlServer::turn_away(const UniqueFd& socket) const {
     const control::ControlError error(
         control::ErrorCode::too_many_clients,
         fmt::format("{} clients are connected, and more cannot be; try again when one has left.",
                     most_clients));
-    asio::error_code ignored;
-    socket.non_blocking(true, ignored);
-    socket.write_some(asio::buffer(control::to_line({{"ok", false}, {"error", control::error_json(error)}})),
-                      ignored);
+    const std::string line = control::to_line({{"ok", false}, {"error", control::error_json(error)}});
+    (void)link::write_socket(socket.get(), line.data(), line.size());
 }
 
 void ControlServer::leave(const Client& client) {
@@ -206,7 +195,7 @@ void ControlServer::skip_on() {
     const SimTime left = skip_to_ - parts_.clock.now();
     if (left > SimTime{0}) {
         parts_.clock.skip(std::min(left, skip_at_once));
-        asio::post(parts_.context, [this, life = std::weak_ptr(life_)] {
+        parts_.loop.post([this, life = std::weak_ptr(life_)] {
             if (!life.expired()) skip_on();
         });
     }
@@ -217,7 +206,7 @@ SimTime ControlServer::skip(SimTime by) {
     const bool under_way = skip_to_ > now;
     skip_to_ = std::max(skip_to_, now) + by;
     if (!under_way) {
-        asio::post(parts_.context, [this, life = std::weak_ptr(life_)] {
+        parts_.loop.post([this, life = std::weak_ptr(life_)] {
             if (!life.expired()) skip_on();
         });
     }
@@ -225,7 +214,7 @@ SimTime ControlServer::skip(SimTime by) {
 }
 
 void ControlServer::quit() {
-    asio::post(parts_.context, parts_.quit);
+    parts_.loop.post(parts_.quit);
 }
 
 control::Json ControlServer::status() const {

@@ -22,7 +22,7 @@ class ControlServer final : public LiveObserver, private control::Target {
     static constexpr std::size_t most_clients = 128;
 
     struct Parts {
-        asio::io_context& context;
+        link::EventLoop& loop;
         board::Board& board;
         LiveBoard& live;
         Clock& clock;
@@ -64,8 +64,8 @@ class ControlServer final : public LiveObserver, private control::Target {
     control::FaultControl* faults() override { return parts_.faults; }
     control::Json status() const override;
 
-    void take(link::LocalListener::Socket socket);
-    void turn_away(link::LocalListener::Socket socket) const;
+    void take(link::UniqueFd socket);
+    void turn_away(const link::UniqueFd& socket) const;
     void leave(const Client& client);
     void skip_on();
 

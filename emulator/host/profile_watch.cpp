@@ -26,12 +26,13 @@ constexpr std::uint32_t changes = IN_CLOSE_WRITE | IN_MOVED_TO | IN_CREATE;
 
 class ProfileWatch::Impl {
   public:
-    Impl(asio::io_context& context, std::function<void()> on_change)
-        : on_change_(std::move(on_change)), descriptor_(context), timer_(context) {
-        const int fd = ::inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
-        if (fd >= 0) {
-            descriptor_.assign(fd);
-            wait();
+    Impl(link::EventLoop& loop, std::function<void()> on_change)
+        : on_change_(std::move(on_change)),
+          changes_(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC)),
+          watch_(loop, [this] { take(); }),
+          settled_(loop, [this] { on_change_(); }) {
+        if (changes_) {
+            watch_.start(changes_.get());
         }
     }
 
@@ -44,7 +45,7 @@ class ProfileWatch::Impl {
         }
         for (const auto& [id, names] : watches_) {
             if (!wanted.contains(id)) {
-                ::inotify_rm_watch(descriptor_.native_handle(), id);
+                ::inotify_rm_watch(changes_.get(), id);
             }
         }
         watches_ = std::move(wanted);
@@ -54,28 +55,21 @@ class ProfileWatch::Impl {
 
   private:
     void add(const fs::path& file, std::map<int, std::set<std::string>>& wanted) {
-        if (!descriptor_.is_open() || !file.has_parent_path()) {
+        if (!changes_ || !file.has_parent_path()) {
             return;
         }
-        const int id = ::inotify_add_watch(descriptor_.native_handle(), file.parent_path().c_str(), changes);
+        const int id = ::inotify_add_watch(changes_.get(), file.parent_path().c_str(), changes);
         if (id >= 0) {
             wanted[id].insert(file.filename().string());
         }
     }
 
-    void wait() {
-        descriptor_.async_wait(asio::posix::stream_descriptor::wait_read,
-                               [this](const asio::error_code& error) {
-                                   if (!error) {
-                                       take();
-                                       wait();
-                                   }
-                               });
-    }
-
     void take() {
         alignas(inotify_event) std::array<char, 4096> buffer;
-        const ssize_t size = ::read(descriptor_.native_handle(), buffer.data(), buffer.size());
+        const ssize_t size = ::read(changes_.get(), buffer.data(), buffer.size());
+        if (size <= 0) {
+            watch_.drained();
+        }
         for (ssize_t at = 0; at + static_cast<ssize_t>(sizeof(inotify_event)) <= size;) {
             inotify_event event{};
             std::memcpy(&event, buffer.data() + at, sizeof event);
@@ -85,28 +79,20 @@ class ProfileWatch::Impl {
             // An overflow may have swallowed ours.
             if ((event.mask & IN_Q_OVERFLOW) != 0 ||
                 (watched != watches_.end() && event.len != 0 && watched->second.contains(name))) {
-                start_settling();
+                settled_.after(settling);
             }
         }
     }
 
-    void start_settling() {
-        timer_.expires_after(settling);
-        timer_.async_wait([this](const asio::error_code& error) {
-            if (!error) {
-                on_change_();
-            }
-        });
-    }
-
     std::function<void()> on_change_;
-    asio::posix::stream_descriptor descriptor_;
-    asio::steady_timer timer_;
+    link::UniqueFd changes_;
+    link::Watch watch_;
+    link::Timer settled_;
     std::map<int, std::set<std::string>> watches_;  ///< names by the watch of their folder
 };
 
-ProfileWatch::ProfileWatch(asio::io_context& context, std::function<void()> on_change)
-    : impl_(std::make_unique<Impl>(context, std::move(on_change))) {}
+ProfileWatch::ProfileWatch(link::EventLoop& loop, std::function<void()> on_change)
+    : impl_(std::make_unique<Impl>(loop, std::move(on_change))) {}
 
 ProfileWatch::~ProfileWatch() = default;
 

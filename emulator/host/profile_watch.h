@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-namespace asio {
-class io_context;
+namespace fauxboard::link {
+class EventLoop;
 }
 
 namespace fauxboard::host {
@@ -15,9 +15,9 @@ namespace fauxboard::host {
 /// writes a new file and renames it is heard, too.
 class ProfileWatch {
   public:
-    /// `on_change` is called from the event loop, 100 ms after the last of a series of changes. `context`
+    /// `on_change` is called from the event loop, 100 ms after the last of a series of changes. `loop`
     /// outlives this. Where the system has no watches left nothing is ever heard: works() says so.
-    ProfileWatch(asio::io_context& context, std::function<void()> on_change);
+    ProfileWatch(link::EventLoop& loop, std::function<void()> on_change);
     ~ProfileWatch();
     ProfileWatch(const ProfileWatch&) = delete;
     ProfileWatch& operator=(const ProfileWatch&) = delete;

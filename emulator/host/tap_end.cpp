@@ -35,7 +35,7 @@ TapEnd parse_tap_end(std::string_view text) {
     return end;
 }
 
-std::unique_ptr<link::Link> make_tap_link(asio::io_context& loop, const TapEnd& end, unsigned baud) {
+std::unique_ptr<link::Link> make_tap_link(link::EventLoop& loop, const TapEnd& end, unsigned baud) {
     switch (end.kind) {
         case TapEnd::Kind::pty:
             return link::make_pty_link(loop, end.name);

@@ -26,6 +26,6 @@ struct TapEnd {
 TapEnd parse_tap_end(std::string_view text);
 
 /// `baud` in bit/s, for ports. Throws LinkError for an address that is none.
-std::unique_ptr<link::Link> make_tap_link(asio::io_context& loop, const TapEnd& end, unsigned baud);
+std::unique_ptr<link::Link> make_tap_link(link::EventLoop& loop, const TapEnd& end, unsigned baud);
 
 }  // namespace fauxboard::host

@@ -17,8 +17,8 @@ namespace {
 
 class ForeignPtyLink final : public ReopeningLink {
   public:
-    ForeignPtyLink(asio::io_context& context, std::string device, unsigned baud)
-        : ReopeningLink(context), device_(std::move(device)), baud_(baud) {}
+    ForeignPtyLink(EventLoop& loop, std::string device, unsigned baud)
+        : ReopeningLink(loop), device_(std::move(device)), baud_(baud) {}
     ~ForeignPtyLink() override { close(); }
 
     std::string describe() const override { return fmt::format("pseudo-terminal {}", device_); }
@@ -89,8 +89,8 @@ bool is_pty_path(const std::string& device) {
     return target.string().starts_with("/dev/pts/");
 }
 
-std::unique_ptr<Link> make_foreign_pty_link(asio::io_context& context, std::string device, unsigned baud) {
-    return std::make_unique<ForeignPtyLink>(context, std::move(device), baud);
+std::unique_ptr<Link> make_foreign_pty_link(EventLoop& loop, std::string device, unsigned baud) {
+    return std::make_unique<ForeignPtyLink>(loop, std::move(device), baud);
 }
 
 }  // namespace fauxboard::link

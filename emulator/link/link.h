@@ -7,11 +7,9 @@
 #include <string>
 #include <string_view>
 
-namespace asio {
-class io_context;
-}
-
 namespace fauxboard::link {
+
+class EventLoop;
 
 /// A link that cannot work as it was asked for. what() is a full sentence that says what to do about it.
 class LinkError : public std::runtime_error {
@@ -97,20 +95,20 @@ class Link {
 /// name is replaced only if it is a symlink that points nowhere. What is written before the first peer opens
 /// it is kept for that peer, up to `backlog_limit`; what is written while nobody has it open later on is
 /// lost, and a new peer never reads what was meant for the one before.
-std::unique_ptr<Link> make_pty_link(asio::io_context& context, std::string link_name);
+std::unique_ptr<Link> make_pty_link(EventLoop& loop, std::string link_name);
 
 /// A port that exists: a serial port, or somebody else's pseudo-terminal (/dev/pts/N, or a symlink to one).
 /// 8N1, no flow control, `baud` in bit/s. A port that vanishes is tried again every 500 ms; symlinks are
 /// followed anew each time.
-std::unique_ptr<Link> make_port_link(asio::io_context& context, std::string device, unsigned baud);
+std::unique_ptr<Link> make_port_link(EventLoop& loop, std::string device, unsigned baud);
 
 /// The board's side of a TCP line: listens on "HOST:PORT", ":PORT" or "PORT" (127.0.0.1), "[IPV6]:PORT". Port
 /// 0 takes a free one; path() tells which. One client at a time; a second one is turned away. Backlog as for
 /// the pty.
-std::unique_ptr<Link> make_tcp_listen_link(asio::io_context& context, std::string host_port);
+std::unique_ptr<Link> make_tcp_listen_link(EventLoop& loop, std::string host_port);
 
 /// The screen's side: connects when opened (which may take up to 5 s per address, then LinkError), and again
 /// every 500 ms after the connection was lost.
-std::unique_ptr<Link> make_tcp_connect_link(asio::io_context& context, std::string host_port);
+std::unique_ptr<Link> make_tcp_connect_link(EventLoop& loop, std::string host_port);
 
 }  // namespace fauxboard::link

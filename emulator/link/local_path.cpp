@@ -7,16 +7,12 @@
 
 #include <cerrno>
 #include <cstring>
-#include <system_error>
 
+#include "emulator/link/error_text.h"
 #include "emulator/link/link.h"
 
 namespace fauxboard::link {
 namespace {
-
-std::string error_text(int error) {
-    return std::system_category().message(error);
-}
 
 sockaddr_un address_of(const std::string& path) {
     sockaddr_un address{};

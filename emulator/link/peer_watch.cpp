@@ -19,6 +19,7 @@ PeerWatch::Seen PeerWatch::take() {
     std::array<char, 4096> buffer;
     const ssize_t size = ::read(fd_.get(), buffer.data(), buffer.size());
     Seen seen;
+    seen.anything = size > 0;
     inotify_event event{};
     for (std::size_t at = 0; size > 0 && at + sizeof event <= static_cast<std::size_t>(size);
          at += sizeof event + event.len) {

@@ -13,6 +13,7 @@ namespace fauxboard::link {
 class PeerWatch {
   public:
     struct Seen {
+        bool anything = false;
         bool opened = false;    ///< at least once
         bool reopened = false;  ///< ... when the count said that nobody was there
     };

@@ -8,9 +8,9 @@
 
 namespace fauxboard::link {
 
-std::unique_ptr<Link> make_port_link(asio::io_context& context, std::string device, unsigned baud) {
-    if (is_pty_path(device)) return make_foreign_pty_link(context, std::move(device), baud);
-    return make_serial_link(context, std::move(device), baud);
+std::unique_ptr<Link> make_port_link(EventLoop& loop, std::string device, unsigned baud) {
+    if (is_pty_path(device)) return make_foreign_pty_link(loop, std::move(device), baud);
+    return make_serial_link(loop, std::move(device), baud);
 }
 
 }  // namespace fauxboard::link

@@ -26,9 +26,9 @@ namespace {
 /// the master, where Linux applies them to the slave.
 class PtyLink final : public StreamLink {
   public:
-    PtyLink(asio::io_context& context, std::string link_name, bool watch_peers)
-        : StreamLink(context),
-          watch_events_(context),
+    PtyLink(EventLoop& loop, std::string link_name, bool watch_peers)
+        : StreamLink(loop),
+          watch_events_(loop, [this] { on_watch(); }),
           name_(std::move(link_name)),
           watch_peers_(watch_peers) {}
     ~PtyLink() override { close(); }
@@ -49,10 +49,9 @@ class PtyLink final : public StreamLink {
     void hold_slave();
     bool make_raw() const;
     void forget_unread() const;
-    void await_peer();
     void on_watch();
 
-    asio::posix::stream_descriptor watch_events_;  ///< borrows watch_'s descriptor
+    Watch watch_events_;  ///< borrows watch_'s descriptor
     std::string name_;
     bool watch_peers_;
     std::string path_;
@@ -75,10 +74,7 @@ void PtyLink::open_device() {
         return go_up(
             fmt::format("{} is open; there is no telling whether anybody is at the other end", path_));
     }
-    asio::error_code error;
-    watch_events_.assign(watch_.fd(), error);
-    if (error) throw LinkError(fmt::format("The event loop cannot watch {}: {}.", path_, error.message()));
-    await_peer();
+    watch_events_.start(watch_.fd());
     go_waiting(fmt::format("{} is open; waiting for somebody to open its other end", path_));
 }
 
@@ -100,7 +96,7 @@ void PtyLink::hold_slave() {
 }
 
 void PtyLink::close_device() {
-    if (watch_events_.is_open()) watch_events_.release();
+    watch_events_.stop();
     watch_.stop();
     link_.remove();
     slave_.reset();
@@ -109,17 +105,9 @@ void PtyLink::close_device() {
 
 // ---- peers ----
 
-void PtyLink::await_peer() {
-    watch_events_.async_wait(asio::posix::stream_descriptor::wait_read,
-                             guarded([this](const asio::error_code& error) {
-                                 if (error) return;
-                                 await_peer();
-                                 on_watch();
-                             }));
-}
-
 void PtyLink::on_watch() {
     const PeerWatch::Seen seen = watch_.take();
+    if (!seen.anything) return watch_events_.drained();
     const bool nobody = hung_up(master_.get());
     if (state() == LinkState::up) {
         if (nobody) return;  // the read loop delivers what is left, then finds the end
@@ -175,12 +163,12 @@ void PtyLink::forget_unread() const {
 
 }  // namespace
 
-std::unique_ptr<Link> make_pty_link(asio::io_context& context, std::string link_name, bool watch_peers) {
-    return std::make_unique<PtyLink>(context, std::move(link_name), watch_peers);
+std::unique_ptr<Link> make_pty_link(EventLoop& loop, std::string link_name, bool watch_peers) {
+    return std::make_unique<PtyLink>(loop, std::move(link_name), watch_peers);
 }
 
-std::unique_ptr<Link> make_pty_link(asio::io_context& context, std::string link_name) {
-    return make_pty_link(context, std::move(link_name), true);
+std::unique_ptr<Link> make_pty_link(EventLoop& loop, std::string link_name) {
+    return make_pty_link(loop, std::move(link_name), true);
 }
 
 }  // namespace fauxboard::link

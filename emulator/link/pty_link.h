@@ -9,8 +9,8 @@
 
 namespace fauxboard::link {
 
-/// As make_pty_link(context, link_name). Without `watch_peers` it works as on a system that has no inotify
+/// As make_pty_link(loop, link_name). Without `watch_peers` it works as on a system that has no inotify
 /// watch left: always up, since there is no telling whether anybody is there.
-std::unique_ptr<Link> make_pty_link(asio::io_context& context, std::string link_name, bool watch_peers);
+std::unique_ptr<Link> make_pty_link(EventLoop& loop, std::string link_name, bool watch_peers);
 
 }  // namespace fauxboard::link

@@ -10,10 +10,7 @@ void ReopeningLink::on_end(const std::string& why) {
 }
 
 void ReopeningLink::retry_later() {
-    timer_.expires_after(retry_period);
-    timer_.async_wait(guarded([this](const asio::error_code& error) {
-        if (!error) try_again();
-    }));
+    timer_.after(retry_period);
 }
 
 // A failed try says nothing: the listener has been told that the port is gone.

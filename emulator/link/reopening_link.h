@@ -16,7 +16,7 @@ class ReopeningLink : public StreamLink {
     static constexpr std::chrono::milliseconds retry_period{500};
 
   protected:
-    explicit ReopeningLink(asio::io_context& context) : StreamLink(context), timer_(context) {}
+    explicit ReopeningLink(EventLoop& loop) : StreamLink(loop), timer_(loop, [this] { try_again(); }) {}
 
     /// Closes the device, half-opened ones too.
     virtual void release_device() = 0;
@@ -30,7 +30,7 @@ class ReopeningLink : public StreamLink {
     void close_device() final;
 
   private:
-    asio::steady_timer timer_;
+    Timer timer_;
 };
 
 }  // namespace fauxboard::link

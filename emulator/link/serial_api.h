@@ -42,7 +42,7 @@ struct SerialApi {
 };
 
 /// As make_port_link() for a port that is not a pseudo-terminal.
-std::unique_ptr<Link> make_serial_link(asio::io_context& context, std::string device, unsigned baud,
+std::unique_ptr<Link> make_serial_link(EventLoop& loop, std::string device, unsigned baud,
                                        const SerialApi& api = {});
 
 /// Every port that `api` lists. Throws LinkError.

@@ -26,8 +26,8 @@ std::string follow_symlinks(const std::string& device) {
 
 class SerialLink final : public ReopeningLink {
   public:
-    SerialLink(asio::io_context& context, std::string device, unsigned baud, const SerialApi& api)
-        : ReopeningLink(context), device_(std::move(device)), baud_(baud), api_(api) {}
+    SerialLink(EventLoop& loop, std::string device, unsigned baud, const SerialApi& api)
+        : ReopeningLink(loop), device_(std::move(device)), baud_(baud), api_(api) {}
     ~SerialLink() override { close(); }
 
     std::string describe() const override { return fmt::format("serial port {} at {} baud", device_, baud_); }
@@ -135,9 +135,9 @@ void SerialLink::check(sp_return result, const std::string& attempt, int argumen
 
 }  // namespace
 
-std::unique_ptr<Link> make_serial_link(asio::io_context& context, std::string device, unsigned baud,
+std::unique_ptr<Link> make_serial_link(EventLoop& loop, std::string device, unsigned baud,
                                        const SerialApi& api) {
-    return std::make_unique<SerialLink>(context, std::move(device), baud, api);
+    return std::make_unique<SerialLink>(loop, std::move(device), baud, api);
 }
 
 }  // namespace fauxboard::link

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <system_error>
 
 namespace fauxboard::link {
 
@@ -20,10 +19,6 @@ bool not_now(int error) {
 }
 
 }  // namespace
-
-std::string error_text(int error) {
-    return std::system_category().message(error);
-}
 
 bool hung_up(int fd) {
     pollfd poll_fd{fd, POLLIN, 0};
@@ -65,58 +60,32 @@ ssize_t StreamLink::write_some(int fd, const char* data, std::size_t size) {
 
 void StreamLink::attach(int fd) {
     detach();
-    asio::error_code error;
-    descriptor_.assign(fd, error);
-    if (error)
-        throw LinkError(fmt::format("The event loop cannot watch {}: {}.", describe(), error.message()));
-    wait_readable();
+    watch_.start(fd);
+    watch_.hold(held_);
 }
 
 void StreamLink::detach() {
     ++attach_count_;
     broken_ = false;
-    writable_awaited_ = false;
-    readable_awaited_ = false;
-    if (descriptor_.is_open()) descriptor_.release();
+    watch_.stop();
 }
 
 // ---- reading ----
 
-void StreamLink::wait_readable() {
-    if (held_ || readable_awaited_) return;
-    readable_awaited_ = true;
-    descriptor_.async_wait(asio::posix::stream_descriptor::wait_read,
-                           guarded([this, id = attach_count_](const asio::error_code& error) {
-                               if (error || id != attach_count_) return;
-                               readable_awaited_ = false;
-                               on_readable();
-                           }));
-}
-
 void StreamLink::hold(bool held) {
     held_ = held;
-    if (!held && session_ && attached()) wait_readable();
+    if (attached()) watch_.hold(held);
 }
 
 void StreamLink::on_readable() {
-    if (held_) return;
-    switch (take()) {
-        case Took::bytes:
-        case Took::nothing:
-            wait_readable();
-            break;
-        case Took::end:
-            on_end(end_reason_);
-            break;
-        case Took::left:
-            break;
-    }
+    if (take() == Took::end) on_end(end_reason_);
 }
 
-// One read, so that a peer that floods us does not keep other handlers of the loop from running.
+// One read, so that a peer that floods us leaves the loop's others their turn.
 StreamLink::Took StreamLink::take() {
-    const ssize_t count = read_some(descriptor_.native_handle(), buffer_.data(), buffer_.size());
+    const ssize_t count = read_some(watch_.fd(), buffer_.data(), buffer_.size());
     if (count > 0) {
+        if (static_cast<std::size_t>(count) < buffer_.size() && !watch_.hung_up()) watch_.drained();
         stats_.bytes_in += static_cast<std::uint64_t>(count);
         const std::weak_ptr<char> session = session_;
         const unsigned id = attach_count_;
@@ -124,7 +93,10 @@ StreamLink::Took StreamLink::take() {
         // The listener may have closed or destroyed us: nothing of this object is safe before this is asked.
         return session.expired() || id != attach_count_ ? Took::left : Took::bytes;
     }
-    if (count < 0 && not_now(errno)) return Took::nothing;
+    if (count < 0 && not_now(errno)) {
+        if (errno != EINTR) watch_.drained();
+        return Took::nothing;
+    }
     end_reason_ = count < 0 ? error_text(errno) : "end of file";
     return Took::end;
 }
@@ -147,7 +119,7 @@ void StreamLink::write(std::string_view message) {
 
 void StreamLink::send_now(std::string_view message) {
     if (message.size() > pending_limit) return lose(message);
-    const ssize_t result = write_some(descriptor_.native_handle(), message.data(), message.size());
+    const ssize_t result = write_some(watch_.fd(), message.data(), message.size());
     if (result < 0 && !not_now(errno)) {
         const int error = errno;
         lose(message);
@@ -157,7 +129,7 @@ void StreamLink::send_now(std::string_view message) {
     stats_.bytes_out += sent;
     if (sent == message.size()) return;
     pending_.push(message.substr(sent), pending_limit);
-    wait_writable();
+    watch_.await_writable();
 }
 
 void StreamLink::keep(std::string_view message, std::size_t limit) {
@@ -175,43 +147,36 @@ void StreamLink::drop_pending() {
     stats_.writes_lost += dropped.messages;
 }
 
-void StreamLink::wait_writable() {
-    if (writable_awaited_) return;
-    writable_awaited_ = true;
-    descriptor_.async_wait(asio::posix::stream_descriptor::wait_write,
-                           guarded([this, id = attach_count_](const asio::error_code& error) {
-                               if (error || id != attach_count_) return;
-                               writable_awaited_ = false;
-                               flush_pending();
-                               if (pending_.empty()) listener_->on_drained();
-                           }));
+void StreamLink::on_writable() {
+    flush_pending();
+    if (pending_.empty()) listener_->on_drained();
 }
 
 void StreamLink::flush_pending() {
     if (pending_.empty() || broken_) return;
     const std::string_view rest = pending_.view();
-    const ssize_t result = write_some(descriptor_.native_handle(), rest.data(), rest.size());
+    const ssize_t result = write_some(watch_.fd(), rest.data(), rest.size());
     if (result < 0 && !not_now(errno)) return fail_later(errno);
     if (result > 0) {
         stats_.bytes_out += static_cast<std::uint64_t>(result);
         pending_.consume(static_cast<std::size_t>(result));
     }
-    if (!pending_.empty()) wait_writable();
+    if (!pending_.empty()) watch_.await_writable();
 }
 
 // A write found the line broken. The listener must not be called from inside its own write(), and what the
 // other end said before it went must still be heard.
 void StreamLink::fail_later(int error) {
     broken_ = true;
-    asio::post(context_, guarded([this, id = attach_count_, why = error_text(error)] {
-                   if (id != attach_count_) return;
-                   for (int i = 0; i < last_reads; ++i) {
-                       const Took took = take();
-                       if (took == Took::left) return;
-                       if (took != Took::bytes) break;
-                   }
-                   on_end(why);
-               }));
+    post([this, id = attach_count_, why = error_text(error)] {
+        if (id != attach_count_) return;
+        for (int i = 0; i < last_reads; ++i) {
+            const Took took = take();
+            if (took == Took::left) return;
+            if (took != Took::bytes) break;
+        }
+        on_end(why);
+    });
 }
 
 // ---- telling ----
@@ -233,7 +198,7 @@ void StreamLink::note(std::string why) {
 
 void StreamLink::announce(LinkState state, std::string why) {
     state_ = state;
-    asio::post(context_, guarded([this, state, text = std::move(why)] { listener_->on_state(state, text); }));
+    post([this, state, text = std::move(why)] { listener_->on_state(state, text); });
 }
 
 }  // namespace fauxboard::link

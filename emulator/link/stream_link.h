@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "emulator/link/error_text.h"
 #include "emulator/link/event_loop.h"
 #include "emulator/link/link.h"
 #include "emulator/link/pending_bytes.h"
@@ -20,7 +21,7 @@ namespace fauxboard::link {
 /// listener. A derived class opens a descriptor, lends it with attach(), and decides what the end of the
 /// stream means.
 ///
-/// One ready descriptor costs one read() and one re-arming of the event loop; a message costs one write().
+/// What comes in costs one read() and one turn of the event loop; a message costs one write().
 /// Derived destructors must call close().
 class StreamLink : public Link {
   public:
@@ -33,7 +34,10 @@ class StreamLink : public Link {
     const LinkStats& stats() const final { return stats_; }
 
   protected:
-    explicit StreamLink(asio::io_context& context) : context_(context), descriptor_(context) {}
+    explicit StreamLink(EventLoop& loop)
+        : loop_(loop),
+          watch_(
+              loop, [this] { on_readable(); }, [this] { on_writable(); }) {}
 
     /// Opens, and calls attach(), go_up(), go_waiting() as fits. Throws LinkError; close_device() follows
     /// then.
@@ -54,7 +58,7 @@ class StreamLink : public Link {
     void attach(int fd);
     /// Gives the descriptor back, unclosed.
     void detach();
-    bool attached() const { return descriptor_.is_open(); }
+    bool attached() const { return watch_.active(); }
 
     void go_up(std::string why);
     void go_waiting(std::string why);
@@ -64,23 +68,20 @@ class StreamLink : public Link {
     void drop_pending();
     bool was_up() const { return was_up_; }  ///< since open()
 
-    asio::io_context& context() { return context_; }
-
-    /// Wraps a handler of the event loop so that it does nothing once this link has been closed or destroyed.
-    template <class Handler>
-    auto guarded(Handler handler) {
-        return
-            [session = std::weak_ptr<char>(session_), handler = std::move(handler)](auto&&... args) mutable {
-                if (!session.expired()) handler(std::forward<decltype(args)>(args)...);
-            };
-    }
+    EventLoop& loop() { return loop_; }
 
   private:
     enum class Took : std::uint8_t { bytes, nothing, end, left };
 
-    void wait_readable();
-    void wait_writable();
+    /// Puts `task` off to the loop's next turn; dropped if this link is closed or destroyed meanwhile.
+    template <class Task>
+    void post(Task task) {
+        loop_.post([session = std::weak_ptr<char>(session_), task = std::move(task)] {
+            if (!session.expired()) task();
+        });
+    }
     void on_readable();
+    void on_writable();
     Took take();
     void flush_pending();
     void send_now(std::string_view message);
@@ -89,25 +90,21 @@ class StreamLink : public Link {
     void fail_later(int error);
     void announce(LinkState state, std::string why);
 
-    asio::io_context& context_;
-    asio::posix::stream_descriptor descriptor_;  ///< borrows: released, never closed
+    EventLoop& loop_;
+    Watch watch_;
     LinkListener* listener_ = nullptr;
-    std::shared_ptr<char> session_;  ///< lives from open() to close(); handlers hold it weakly
-    unsigned attach_count_ = 0;      ///< tells a handler of a former descriptor from one of this
+    std::shared_ptr<char> session_;  ///< lives from open() to close(); what is put off holds it weakly
+    unsigned attach_count_ = 0;      ///< tells what a former descriptor left to do from what this did
     LinkState state_ = LinkState::opening;
     bool was_up_ = false;
     bool broken_ = false;  ///< a write failed; on_end() is on its way
-    bool writable_awaited_ = false;
-    bool readable_awaited_ = false;
-    bool held_ = false;  ///< see hold()
+    bool held_ = false;    ///< see hold()
     LinkStats stats_;
     PendingBytes pending_;
     std::string end_reason_;
     std::array<char, read_limit> buffer_{};
 };
 
-/// "No such file or directory" for ENOENT.
-std::string error_text(int error);
 /// Whether the other side of a terminal is gone. For reads that return nothing, where that may mean either.
 bool hung_up(int fd);
 

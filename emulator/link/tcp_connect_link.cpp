@@ -2,32 +2,33 @@
 
 #include <fmt/format.h>
 #include <poll.h>
-#include <sys/socket.h>
 
 #include <cerrno>
 #include <utility>
 
+#include "emulator/link/inet_socket.h"
 #include "emulator/link/reopening_link.h"
-#include "emulator/link/tcp_socket.h"
-#include "emulator/link/unique_fd.h"
+#include "emulator/link/socket_io.h"
 
 namespace fauxboard::link {
 
 namespace {
 
-using asio::ip::tcp;
-
 constexpr int connect_timeout_ms = 5000;
 
 class TcpConnectLink final : public ReopeningLink {
   public:
-    TcpConnectLink(asio::io_context& context, std::string host_port)
-        : ReopeningLink(context), host_port_(std::move(host_port)), socket_(context) {}
+    TcpConnectLink(EventLoop& loop, std::string host_port)
+        : ReopeningLink(loop),
+          host_port_(std::move(host_port)),
+          // Readable is what a refused one is, too.
+          connecting_(
+              loop, [this] { on_decided(); }, [this] { on_decided(); }) {}
     ~TcpConnectLink() override { close(); }
 
     std::string describe() const override { return fmt::format("tcp {}", path()); }
     std::string kind() const override { return "tcp"; }
-    std::string path() const override { return endpoint_.port() == 0 ? host_port_ : to_text(endpoint_); }
+    std::string path() const override { return address_.known() ? address_.text() : host_port_; }
 
   private:
     void open_device() override;
@@ -41,47 +42,51 @@ class TcpConnectLink final : public ReopeningLink {
         return write_socket(fd, data, size);
     }
 
+    void on_decided();
     void connected();
+    void failed();
 
     std::string host_port_;
-    tcp::endpoint endpoint_;
-    tcp::socket socket_;  ///< while connecting
-    UniqueFd fd_;         ///< once connected
+    SocketAddress address_;
+    UniqueFd fd_;
+    Watch connecting_;  ///< fd_, while the other side has not answered yet
 };
 
-/// Connects within the time limit; the error number, 0 if it worked.
-int connect_in_time(tcp::socket& socket, const tcp::endpoint& endpoint) {
-    asio::error_code error;
-    socket.open(endpoint.protocol(), error);
-    if (!error) socket.native_non_blocking(true, error);
-    if (error) return error.value();
-    const int fd = socket.native_handle();
-    if (::connect(fd, endpoint.data(), static_cast<socklen_t>(endpoint.size())) == 0) return 0;
-    if (errno != EINPROGRESS) return errno;
-    pollfd poll_fd{fd, POLLOUT, 0};
-    const int ready = ::poll(&poll_fd, 1, connect_timeout_ms);
-    if (ready < 0) return errno;
-    if (ready == 0) return ETIMEDOUT;
-    int result = 0;
-    socklen_t size = sizeof result;
-    return ::getsockopt(fd, SOL_SOCKET, SO_ERROR, &result, &size) == 0 ? result : errno;
+/// Begins to connect `fd`; the error number, EINPROGRESS while it is not decided, 0 if it worked.
+int begin_to_connect(int fd, const SocketAddress& address) {
+    return ::connect(fd, address.get(), address.size()) == 0 ? 0 : errno;
 }
 
-/// On loopback a port that nobody listens on may be dialled from that very port, and TCP then connects it to
-/// itself.
-bool connected_to_itself(const tcp::socket& socket) {
-    asio::error_code local_error;
-    asio::error_code remote_error;
-    const tcp::endpoint local = socket.local_endpoint(local_error);
-    return local == socket.remote_endpoint(remote_error) || local_error || remote_error;
+/// How it ended: 0, or the error number. On loopback a port that nobody listens on may be dialled from that
+/// very port, and TCP then connects it to itself.
+int connect_result(int fd) {
+    int result = 0;
+    socklen_t size = sizeof result;
+    if (::getsockopt(fd, SOL_SOCKET, SO_ERROR, &result, &size) != 0) return errno;
+    if (result != 0) return result;
+    const SocketAddress peer = SocketAddress::of_peer(fd);
+    return !peer.known() || peer == SocketAddress::of(fd) ? ECONNREFUSED : 0;
+}
+
+/// Connects within the time limit; as connect_result().
+int connect_in_time(int fd, const SocketAddress& address) {
+    const int error = begin_to_connect(fd, address);
+    if (error == EINPROGRESS) {
+        pollfd poll_fd{fd, POLLOUT, 0};
+        const int ready = ::poll(&poll_fd, 1, connect_timeout_ms);
+        if (ready <= 0) return ready < 0 ? errno : ETIMEDOUT;
+    } else if (error != 0) {
+        return error;
+    }
+    return connect_result(fd);
 }
 
 void TcpConnectLink::open_device() {
     int error = 0;
-    for (const tcp::endpoint& endpoint : resolve(context(), host_port_)) {
-        endpoint_ = endpoint;
-        error = connect_in_time(socket_, endpoint);
-        if (error == 0 && connected_to_itself(socket_)) error = ECONNREFUSED;
+    for (const SocketAddress& address : resolve(host_port_, SOCK_STREAM)) {
+        address_ = address;
+        fd_ = make_inet_socket(address, SOCK_STREAM);
+        error = fd_ ? connect_in_time(fd_.get(), address) : errno;
         if (error == 0) return connected();
         release_device();
     }
@@ -89,39 +94,50 @@ void TcpConnectLink::open_device() {
                                 error_text(error)));
 }
 
-// A connecting socket of our own event loop: a host that does not answer must not stop everything else.
+// Waits in the event loop: a host that does not answer must not stop everything else.
 void TcpConnectLink::try_again() {
-    socket_.async_connect(endpoint_, guarded([this](const asio::error_code& error) {
-                              if (!error && !connected_to_itself(socket_)) {
-                                  try {
-                                      return connected();
-                                  } catch (const LinkError&) {
-                                      detach();
-                                  }
-                              }
-                              release_device();
-                              retry_later();
-                          }));
+    fd_ = make_inet_socket(address_, SOCK_STREAM);
+    const int error = fd_ ? begin_to_connect(fd_.get(), address_) : errno;
+    if (error != 0 && error != EINPROGRESS) return failed();
+    try {
+        connecting_.start(fd_.get());
+    } catch (const LinkError&) {
+        return failed();
+    }
+    connecting_.await_writable();
+}
+
+void TcpConnectLink::on_decided() {
+    connecting_.stop();
+    if (connect_result(fd_.get()) != 0) return failed();
+    try {
+        connected();
+    } catch (const LinkError&) {
+        detach();
+        failed();
+    }
+}
+
+void TcpConnectLink::failed() {
+    release_device();
+    retry_later();
 }
 
 void TcpConnectLink::connected() {
-    send_at_once(socket_);
-    asio::error_code error;
-    fd_.reset(socket_.release(error));
+    send_at_once(fd_.get());
     attach(fd_.get());
     go_up(was_up() ? fmt::format("connected to {} again", path()) : fmt::format("connected to {}", path()));
 }
 
 void TcpConnectLink::release_device() {
-    asio::error_code ignored;
-    socket_.close(ignored);
+    connecting_.stop();
     fd_.reset();
 }
 
 }  // namespace
 
-std::unique_ptr<Link> make_tcp_connect_link(asio::io_context& context, std::string host_port) {
-    return std::make_unique<TcpConnectLink>(context, std::move(host_port));
+std::unique_ptr<Link> make_tcp_connect_link(EventLoop& loop, std::string host_port) {
+    return std::make_unique<TcpConnectLink>(loop, std::move(host_port));
 }
 
 }  // namespace fauxboard::link

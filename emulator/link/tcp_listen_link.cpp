@@ -3,26 +3,28 @@
 #include <fmt/format.h>
 #include <poll.h>
 
-#include <chrono>
+#include <cerrno>
 #include <utility>
 
+#include "emulator/link/acceptor.h"
+#include "emulator/link/inet_socket.h"
+#include "emulator/link/socket_io.h"
 #include "emulator/link/stream_link.h"
-#include "emulator/link/tcp_socket.h"
-#include "emulator/link/unique_fd.h"
 
 namespace fauxboard::link {
 
 namespace {
 
-using asio::ip::tcp;
-
-// Out of descriptors, mostly; trying again at once would spin.
-constexpr std::chrono::milliseconds accept_pause{500};
-
 class TcpListenLink final : public StreamLink {
   public:
-    TcpListenLink(asio::io_context& context, std::string host_port)
-        : StreamLink(context), host_port_(std::move(host_port)), acceptor_(context), pause_(context) {}
+    TcpListenLink(EventLoop& loop, std::string host_port)
+        : StreamLink(loop),
+          host_port_(std::move(host_port)),
+          acceptor_(
+              loop, [this](UniqueFd fd) { on_client(std::move(fd)); },
+              [this](std::string_view why) {
+                  note(fmt::format("{} could not take a connection ({}); trying again", path_, why));
+              }) {}
     ~TcpListenLink() override { close(); }
 
     std::string describe() const override { return fmt::format("tcp {} (listening)", path()); }
@@ -44,71 +46,45 @@ class TcpListenLink final : public StreamLink {
     }
     bool keeps_backlog() const override { return true; }
 
-    void accept();
-    void accept_later(const std::string& why);
-    void on_client(tcp::socket socket);
+    void on_client(UniqueFd fd);
     void serve(Client client);
     bool client_is_leaving() const;
 
     std::string host_port_;
     std::string path_;
-    tcp::acceptor acceptor_;
-    asio::steady_timer pause_;
+    Acceptor acceptor_;
     Client client_;
     Client next_;  ///< came while the former client's last bytes were still to be read
 };
 
 void TcpListenLink::open_device() {
-    const tcp::endpoint endpoint = resolve(context(), host_port_).front();
-    asio::error_code error;
-    acceptor_.open(endpoint.protocol(), error);
-    // Else a restart would fail for a minute after the last connection.
-    if (!error) acceptor_.set_option(tcp::acceptor::reuse_address(true), error);
-    if (!error) acceptor_.bind(endpoint, error);
-    if (!error) acceptor_.listen(tcp::acceptor::max_listen_connections, error);
-    if (error) {
+    const SocketAddress address = resolve(host_port_, SOCK_STREAM).front();
+    UniqueFd fd = make_inet_socket(address, SOCK_STREAM);
+    const int on = 1;  // else a restart would fail for a minute after the last connection
+    if (!fd || ::setsockopt(fd.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on) != 0 ||
+        ::bind(fd.get(), address.get(), address.size()) != 0 || ::listen(fd.get(), SOMAXCONN) != 0) {
+        const int error = errno;
         throw LinkError(fmt::format("Cannot listen on {}: {}. Choose another port, or 0 for a free one.",
-                                    to_text(endpoint), error.message()));
+                                    address.text(), error_text(error)));
     }
-    path_ = to_text(acceptor_.local_endpoint(error));
-    accept();
+    path_ = SocketAddress::of(fd.get()).text();
+    acceptor_.start(std::move(fd));
     go_waiting(fmt::format("listening on {}; nobody has connected yet", path_));
 }
 
 void TcpListenLink::close_device() {
-    asio::error_code ignored;
-    acceptor_.close(ignored);
-    pause_.cancel();
+    acceptor_.stop();
     client_ = {};
     next_ = {};
 }
 
 // ---- clients ----
 
-void TcpListenLink::accept() {
-    acceptor_.async_accept(guarded([this](const asio::error_code& error, tcp::socket socket) {
-        if (error) return accept_later(error.message());
-        accept();
-        on_client(std::move(socket));
-    }));
-}
-
-void TcpListenLink::accept_later(const std::string& why) {
-    note(fmt::format("{} could not take a connection ({}); trying again", path_, why));
-    pause_.expires_after(accept_pause);
-    pause_.async_wait(guarded([this](const asio::error_code& error) {
-        if (!error) accept();
-    }));
-}
-
-void TcpListenLink::on_client(tcp::socket socket) {
-    asio::error_code error;
-    const tcp::endpoint peer = socket.remote_endpoint(error);
-    if (error) return;  // gone again
-    send_at_once(socket);
-    const int fd = socket.release(error);
-    if (error) return;
-    Client client{UniqueFd(fd), to_text(peer)};
+void TcpListenLink::on_client(UniqueFd fd) {
+    const SocketAddress peer = SocketAddress::of_peer(fd.get());
+    if (!peer.known()) return;  // gone again
+    send_at_once(fd.get());
+    Client client{std::move(fd), peer.text()};
     if (!client_.fd) return serve(std::move(client));
     // One that reconnects may be seen here before its former connection's end has been read.
     if (!next_.fd && client_is_leaving()) {
@@ -142,8 +118,8 @@ void TcpListenLink::on_end(const std::string& why) {
 
 }  // namespace
 
-std::unique_ptr<Link> make_tcp_listen_link(asio::io_context& context, std::string host_port) {
-    return std::make_unique<TcpListenLink>(context, std::move(host_port));
+std::unique_ptr<Link> make_tcp_listen_link(EventLoop& loop, std::string host_port) {
+    return std::make_unique<TcpListenLink>(loop, std::move(host_port));
 }
 
 }  // namespace fauxboard::link

@@ -5,11 +5,9 @@
 #include <string>
 #include <string_view>
 
-namespace asio {
-class io_context;
-}
-
 namespace fauxboard::link {
+
+class EventLoop;
 
 /// Who sent a datagram: a number of the socket's own, the same for the same address as long as it is
 /// remembered. 0 is nobody.
@@ -62,6 +60,6 @@ class UdpSocket {
 };
 
 /// For "HOST:PORT", ":PORT" or "PORT" (127.0.0.1), "[IPV6]:PORT". Throws LinkError, from open() on.
-std::unique_ptr<UdpSocket> make_udp_socket(asio::io_context& context, std::string host_port);
+std::unique_ptr<UdpSocket> make_udp_socket(EventLoop& loop, std::string host_port);
 
 }  // namespace fauxboard::link

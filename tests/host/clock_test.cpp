@@ -15,8 +15,7 @@ namespace {
 using namespace std::chrono_literals;
 
 TEST_CASE("at full speed time jumps from alarm to alarm") {
-    asio::io_context loop{1};
-    const auto work = asio::make_work_guard(loop);
+    link::EventLoop loop;
     const auto clock = make_clock(loop, {1, true});
     std::vector<SimTime> rung;
     std::unique_ptr<Alarm> alarm = clock->make_alarm([&] {
@@ -36,9 +35,8 @@ TEST_CASE("at full speed time jumps from alarm to alarm") {
 }
 
 TEST_CASE("at full speed the event loop gets its turn, also when nothing is due") {
-    asio::io_context loop{1};
+    link::EventLoop loop;
     const auto clock = make_clock(loop, {1, true});
-    const auto work = asio::make_work_guard(loop);
     int rung = 0;
     std::unique_ptr<Alarm> alarm = clock->make_alarm([&] {
         if (++rung < 100'000) {
@@ -47,10 +45,10 @@ TEST_CASE("at full speed the event loop gets its turn, also when nothing is due"
     });
     clock->start();
     alarm->at(0s);
-    asio::post(loop, [&] {
+    loop.post([&] {
         CHECK(rung < 1000);
         rung = 100'000;  // the next alarm is the last
-        asio::post(loop, [&] { asio::post(loop, [&] { loop.stop(); }); });
+        loop.post([&] { loop.post([&] { loop.stop(); }); });
     });
     clock->run();
     CHECK(rung >= 100'000);
@@ -59,7 +57,7 @@ TEST_CASE("at full speed the event loop gets its turn, also when nothing is due"
 TEST_CASE("an alarm of the real clock never rings before its time, and the latest wish counts") {
     for (const double factor : {1.0, 1e6, 1000.0}) {
         CAPTURE(factor);
-        asio::io_context loop{1};
+        link::EventLoop loop;
         const auto clock = make_clock(loop, {factor, false});
         int rung = 0;
         const auto alarm = clock->make_alarm([&] {
@@ -77,7 +75,7 @@ TEST_CASE("an alarm of the real clock never rings before its time, and the lates
 }
 
 TEST_CASE("an alarm that never comes is none") {
-    asio::io_context loop{1};
+    link::EventLoop loop;
     const auto clock = make_clock(loop, {0.01, false});
     const auto alarm = clock->make_alarm([] { FAIL("rung"); });
     clock->start();
@@ -103,8 +101,7 @@ struct Bells {
 TEST_CASE("several alarms ring in the order of their times, each once, on both clocks") {
     for (const bool max : {true, false}) {
         CAPTURE(max);
-        asio::io_context loop{1};
-        const auto work = asio::make_work_guard(loop);
+        link::EventLoop loop;
         const auto clock = make_clock(loop, {1000, max});
         Bells bells{*clock, {}, {}};
         const auto a = bells.make('a');
@@ -166,8 +163,7 @@ TEST_CASE("an alarm may destroy itself and others, and make new ones") {
 TEST_CASE("skipped time rings all that is due on the way, each at its moment, on both clocks") {
     for (const bool max : {true, false}) {
         CAPTURE(max);
-        asio::io_context loop{1};
-        const auto work = asio::make_work_guard(loop);
+        link::EventLoop loop;
         const auto clock = make_clock(loop, {1, max});
         std::vector<SimTime> rung;
         std::unique_ptr<Alarm> hourly = clock->make_alarm([&] {
@@ -197,7 +193,7 @@ TEST_CASE("skipped time rings all that is due on the way, each at its moment, on
 }
 
 TEST_CASE("time before the start is 0; a skip from inside an alarm is refused, an endless one is bounded") {
-    asio::io_context loop{1};
+    link::EventLoop loop;
     const auto clock = make_clock(loop, {1, false});
     CHECK(clock->now() == 0s);
     const auto alarm = clock->make_alarm([&] { CHECK_THROWS_AS(clock->skip(1s), std::logic_error); });

@@ -43,7 +43,7 @@ struct Bench {
 
     TemporaryFolder folder;
     std::string path = folder.file("control");
-    asio::io_context loop{1};
+    link::EventLoop loop;
     Observers observers;
     FakeLink link;
     HandClock clock;

@@ -1,5 +1,6 @@
 #include "emulator/host/eeprom_file.h"
 
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <csignal>
 

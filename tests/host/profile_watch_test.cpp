@@ -13,7 +13,7 @@ using link::test::run_until;
 struct Watched {
     link::test::TemporaryFolder folder;
     std::string file = folder.file("board.json");
-    asio::io_context loop{1};
+    link::EventLoop loop;
     int changes = 0;
     ProfileWatch watch{loop, [this] { ++changes; }};
 
@@ -69,7 +69,7 @@ TEST_CASE_FIXTURE(Watched, "a file behind a symlink is heard of") {
 }
 
 TEST_CASE("files that are not there are not heard of, and harm nobody") {
-    asio::io_context loop{1};
+    link::EventLoop loop;
     ProfileWatch watch(loop, [] {});
     watch.watch({"/missing/board.json", ""});
     CHECK_FALSE(watch.works());

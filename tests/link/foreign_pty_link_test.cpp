@@ -27,7 +27,7 @@ TEST_CASE("another's pty: recognised by its path, or through symlinks, even when
 }
 
 TEST_CASE("another's pty: both ways, raw, and what was said before we came is heard") {
-    asio::io_context loop;
+    EventLoop loop;
     Recorder heard;
     const OtherPty other;
     say(other.master.get(), "early\n");
@@ -46,7 +46,7 @@ TEST_CASE("another's pty: both ways, raw, and what was said before we came is he
 TEST_CASE("another's pty: vanishes, is waited for, and comes back under another number") {
     const TemporaryFolder folder;
     const std::string name = folder.file("board");
-    asio::io_context loop;
+    EventLoop loop;
     Recorder heard;
     std::optional<OtherPty> other(std::in_place);
     fs::create_symlink(other->path, name);
@@ -69,7 +69,7 @@ TEST_CASE("another's pty: vanishes, is waited for, and comes back under another 
 }
 
 TEST_CASE("another's pty: a write that finds it gone is told by the loop, not by the call") {
-    asio::io_context loop;
+    EventLoop loop;
     Recorder heard;
     std::optional<OtherPty> other(std::in_place);
     const auto link = make_port_link(loop, other->path, 9600);
@@ -86,7 +86,7 @@ TEST_CASE("another's pty: a write that finds it gone is told by the loop, not by
 }
 
 TEST_CASE("another's pty: one that does not exist is an error that says what to do") {
-    asio::io_context loop;
+    EventLoop loop;
     Recorder heard;
     const auto link = make_port_link(loop, "/dev/pts/99999", 115200);
     const std::string error = link_error([&] { link->open(heard); });

@@ -48,18 +48,16 @@ struct Recorder : LinkListener {
 };
 
 /// Runs the loop until `condition` holds. The bound is only there so that a broken test ends.
-inline bool run_until(asio::io_context& loop, const std::function<bool()>& condition) {
+inline bool run_until(EventLoop& loop, const std::function<bool()>& condition) {
     for (int i = 0; i < 2000; ++i) {
         if (condition()) return true;
-        loop.restart();
         loop.run_one_for(std::chrono::milliseconds(10));
     }
     return false;
 }
 
 /// Runs what is ready, and nothing that would have to be waited for.
-inline void run_ready(asio::io_context& loop) {
-    loop.restart();
+inline void run_ready(EventLoop& loop) {
     loop.poll();
 }
 

@@ -16,7 +16,7 @@ struct DrainCounter final : Recorder {
 };
 
 TEST_CASE("a held link reads nothing, and all of it when it goes on") {
-    asio::io_context loop;
+    EventLoop loop;
     OtherPty other;
     Recorder heard;
     const auto link = make_port_link(loop, other.path, 115200);
@@ -26,7 +26,6 @@ TEST_CASE("a held link reads nothing, and all of it when it goes on") {
     link->hold(true);
     say(other.master.get(), "two");
     for (int i = 0; i < 5; ++i) {
-        loop.restart();
         loop.run_one_for(std::chrono::milliseconds(1));
     }
     CHECK(heard.bytes == "one");
@@ -36,7 +35,7 @@ TEST_CASE("a held link reads nothing, and all of it when it goes on") {
 }
 
 TEST_CASE("a listener may hold its link from inside on_bytes, and let it go again") {
-    asio::io_context loop;
+    EventLoop loop;
     OtherPty other;
     Recorder heard;
     const auto link = make_port_link(loop, other.path, 115200);
@@ -54,7 +53,7 @@ TEST_CASE("a listener may hold its link from inside on_bytes, and let it go agai
 }
 
 TEST_CASE("an end that came while the link was held is found, and opening it again lets it read") {
-    asio::io_context loop;
+    EventLoop loop;
     Recorder heard;
     const auto link = make_pty_link(loop, "");
     link->open(heard);
@@ -78,7 +77,7 @@ TEST_CASE("an end that came while the link was held is found, and opening it aga
 }
 
 TEST_CASE("what the system does not take is pending, and the listener hears when it has gone") {
-    asio::io_context loop;
+    EventLoop loop;
     DrainCounter heard;
     const auto link = make_pty_link(loop, "");
     link->open(heard);

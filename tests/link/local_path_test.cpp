@@ -109,11 +109,10 @@ TEST_CASE("names that cannot be, and folders that are not there") {
 TEST_CASE("a listener takes all who come, until it is closed") {
     const TemporaryFolder folder;
     const std::string name = folder.file("control");
-    asio::io_context loop;
-    std::vector<LocalListener::Socket> clients;
+    EventLoop loop;
+    std::vector<UniqueFd> clients;
     LocalListener listener(
-        loop, [&](LocalListener::Socket socket) { clients.push_back(std::move(socket)); },
-        [](std::string_view) {});
+        loop, [&](UniqueFd socket) { clients.push_back(std::move(socket)); }, [](std::string_view) {});
     listener.open(name);
     std::vector<UniqueFd> fds;
     for (int i = 0; i < 100; ++i)

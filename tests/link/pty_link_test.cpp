@@ -13,7 +13,7 @@ using namespace fauxboard::link::test;
 namespace {
 
 struct Pty {
-    asio::io_context loop;
+    EventLoop loop;
     Recorder heard;
     std::unique_ptr<Link> link;
 
@@ -88,7 +88,7 @@ TEST_CASE("pty: the link name is made, described and removed") {
 TEST_CASE("pty: a name that is taken stops the start and leaves nothing open") {
     const TemporaryFolder folder;
     std::ofstream(folder.file("screen")) << "precious";
-    asio::io_context loop;
+    EventLoop loop;
     Recorder heard;
     const auto link = make_pty_link(loop, folder.file("screen"));
     CHECK(contains(link_error([&] { link->open(heard); }), "not a symlink"));

@@ -40,7 +40,7 @@ bool at_end(const UniqueFd& fd) {
 }
 
 struct Listening {
-    asio::io_context loop;
+    EventLoop loop;
     Recorder heard;
     std::unique_ptr<Link> link = make_tcp_listen_link(loop, "0");
 
@@ -175,7 +175,7 @@ TEST_CASE("tcp: a flood comes in pieces and leaves other handlers their turn") {
     int pieces = 0;
     board.heard.then = [&](std::string_view) {
         ++pieces;
-        asio::post(board.loop, [&] { ++turns; });
+        board.loop.post([&] { ++turns; });
         CHECK(turns >= pieces - 1);
     };
     CHECK(board.until_heard(flood));
@@ -218,7 +218,7 @@ TEST_CASE("tcp: a port in use, an unknown host and a bad address are sentences")
 }
 
 TEST_CASE("tcp: IPv6") {
-    asio::io_context loop;
+    EventLoop loop;
     Recorder heard;
     Recorder heard_by_screen;
     const auto board = make_tcp_listen_link(loop, "[::1]:0");
@@ -237,7 +237,7 @@ TEST_CASE("tcp: IPv6") {
 }
 
 TEST_CASE("tcp: the screen's side connects, loses its board, and finds it again") {
-    asio::io_context loop;
+    EventLoop loop;
     Recorder board_heard;
     Recorder screen_heard;
     auto board = make_tcp_listen_link(loop, ":0");
@@ -256,9 +256,7 @@ TEST_CASE("tcp: the screen's side connects, loses its board, and finds it again"
     screen->write("lost");
     CHECK(screen->stats().bytes_lost == 4);
     // At least one try that fails before the board is back: the timer's turn and the refusal's.
-    loop.restart();
     loop.run_one();
-    loop.restart();
     loop.run_one();
     board = make_tcp_listen_link(loop, address);
     board->open(board_heard);
@@ -268,7 +266,7 @@ TEST_CASE("tcp: the screen's side connects, loses its board, and finds it again"
 }
 
 TEST_CASE("tcp: nobody there at the start is an error that says so") {
-    asio::io_context loop;
+    EventLoop loop;
     Recorder heard;
     std::string address;
     {
@@ -285,7 +283,7 @@ TEST_CASE("tcp: nobody there at the start is an error that says so") {
 }
 
 TEST_CASE("tcp: closing stops the retrying") {
-    asio::io_context loop;
+    EventLoop loop;
     Recorder heard;
     Recorder board_heard;
     auto board = make_tcp_listen_link(loop, "0");
@@ -295,7 +293,6 @@ TEST_CASE("tcp: closing stops the retrying") {
     board.reset();
     REQUIRE(run_until(loop, [&] { return heard.state_letters() == "uw"; }));
     screen->close();
-    loop.restart();
     // Ends because no timer is left.
     loop.run();
     CHECK(heard.state_letters() == "uw");

@@ -15,8 +15,6 @@
 #include "emulator/link/event_loop.h"
 #include "emulator/printer/memory_volume.h"
 #include "tests/support/memory_eeprom.h"
-// After event_loop.h, which see.
-#include <asio/executor_work_guard.hpp>
 
 namespace fauxboard::testing {
 namespace {
@@ -89,8 +87,7 @@ ScenarioRun play(const behaviour::SourceText& source, const ScenarioSetup& setup
     const auto scenario = script::load_scenario(source, host::script_finder(), cast, setup.arguments);
 
     ScenarioRun out;
-    asio::io_context loop(1);
-    const auto work = asio::make_work_guard(loop);  // else the loop ends at its first idle look
+    link::EventLoop loop;
     host::Speed speed;
     speed.max = true;
     const auto clock = host::make_clock(loop, speed);

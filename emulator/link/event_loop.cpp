@@ -1,0 +1,282 @@
+#include "emulator/link/event_loop.h"
+
+#include <fmt/format.h>
+#include <sys/signalfd.h>
+#include <sys/timerfd.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <limits>
+#include <utility>
+
+#include "emulator/link/error_text.h"
+#include "emulator/link/link.h"
+
+namespace fauxboard::link {
+
+namespace {
+
+constexpr std::uint32_t read_events = EPOLLIN | EPOLLRDHUP | EPOLLET;
+constexpr int forever = -1;
+
+[[noreturn]] void fail(const char* what) {
+    throw LinkError(fmt::format("The event loop has no {}: {}.", what, error_text(errno)));
+}
+
+}  // namespace
+
+// ---- the loop ----
+
+EventLoop::EventLoop()
+    : epoll_(::epoll_create1(EPOLL_CLOEXEC)),
+      alarm_(::timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC)) {
+    if (!epoll_ || !alarm_) fail("descriptor");
+    // Edge-triggered, so that it need not be read: it is set anew before it is waited for again.
+    epoll_event event{EPOLLIN | EPOLLET, {nullptr}};
+    if (::epoll_ctl(epoll_.get(), EPOLL_CTL_ADD, alarm_.get(), &event) != 0) fail("alarm");
+}
+
+EventLoop::~EventLoop() {
+    tasks_.clear();  // first: with them may end what is still on the other lists
+}
+
+void EventLoop::run() {
+    while (!stopped_ && has_work())
+        turn(forever);
+}
+
+bool EventLoop::run_one() {
+    if (!has_work()) return false;
+    turn(forever);
+    return true;
+}
+
+bool EventLoop::run_one_for(std::chrono::milliseconds limit) {
+    if (!has_work()) return false;
+    turn(static_cast<int>(std::clamp<std::int64_t>(limit.count(), 0, std::numeric_limits<int>::max())));
+    return true;
+}
+
+bool EventLoop::poll() {
+    return turn(0);
+}
+
+bool EventLoop::has_work() const {
+    return watching_ != 0 || !tasks_.empty() ||
+           std::any_of(timers_.begin(), timers_.end(),
+                       [](const Timer* timer) { return timer->when_ != Timer::unset; });
+}
+
+bool EventLoop::turn(int wait_ms) {
+    bool done = run_tasks();
+    if (stopped_) return done;
+    if (done || !tasks_.empty() || !due_.empty()) wait_ms = 0;
+    arm_alarm();
+    const int count = ::epoll_wait(epoll_.get(), events_.data(), static_cast<int>(events_.size()), wait_ms);
+    bool alarm = false;
+    for (int i = 0; i < count; ++i) {  // nobody is called meanwhile, so all of them are still there
+        const epoll_event& event = events_[static_cast<std::size_t>(i)];
+        auto* const watch = static_cast<Watch*>(event.data.ptr);
+        if (watch == nullptr) {
+            alarm = true;
+        } else {
+            watch->ready_ |= event.events;
+            if (watch->wants_call()) queue(*watch);
+        }
+    }
+    if (alarm) {
+        armed_ = Timer::unset;
+        done |= ring_timers();
+    }
+    return call_watches() || done;
+}
+
+bool EventLoop::run_tasks() {
+    if (tasks_.empty()) return false;
+    std::swap(running_, tasks_);  // what they post is for the next turn
+    for (std::size_t i = 0; i < running_.size(); ++i) {
+        if (stopped_) {
+            tasks_.insert(tasks_.begin(),
+                          std::make_move_iterator(running_.begin() + static_cast<std::ptrdiff_t>(i)),
+                          std::make_move_iterator(running_.end()));
+            break;
+        }
+        running_[i]();
+    }
+    running_.clear();
+    return true;
+}
+
+// ---- moments ----
+
+// An alarm that comes too early costs one turn; moving it costs a system call each time, and most moments
+// that are asked for are put off before they come.
+void EventLoop::arm_alarm() {
+    auto first = Timer::unset;
+    for (const Timer* timer : timers_)
+        first = std::min(first, timer->when_);
+    if (first >= armed_) return;
+    armed_ = first;
+    // 0 would disarm it.
+    const auto ns = std::max<std::int64_t>(
+        1, std::chrono::duration_cast<std::chrono::nanoseconds>(first.time_since_epoch()).count());
+    itimerspec moment{};
+    moment.it_value.tv_sec = static_cast<time_t>(ns / 1'000'000'000);
+    moment.it_value.tv_nsec = static_cast<long>(ns % 1'000'000'000);
+    (void)::timerfd_settime(alarm_.get(), TFD_TIMER_ABSTIME, &moment, nullptr);
+}
+
+// Each timer once: one that is set to a moment that is past waits for the next turn.
+bool EventLoop::ring_timers() {
+    const auto now = Timer::Clock::now();
+    ++round_;
+    bool any = false;
+    while (!stopped_) {
+        Timer* next = nullptr;
+        for (Timer* timer : timers_) {
+            if (timer->when_ <= now && timer->round_ != round_ &&
+                (next == nullptr || timer->when_ < next->when_)) {
+                next = timer;
+            }
+        }
+        if (next == nullptr) break;
+        next->when_ = Timer::unset;
+        next->round_ = round_;
+        const auto on_ring = next->on_ring_;  // kept, should the timer end by its own call
+        (*on_ring)();
+        any = true;
+    }
+    return any;
+}
+
+Timer::Timer(EventLoop& loop, std::function<void()> on_ring)
+    : loop_(loop), on_ring_(std::make_shared<const std::function<void()>>(std::move(on_ring))) {
+    loop_.timers_.push_back(this);
+}
+
+Timer::~Timer() {
+    std::erase(loop_.timers_, this);
+}
+
+// ---- descriptors ----
+
+void EventLoop::queue(Watch& watch) {
+    if (std::exchange(watch.queued_, true)) return;
+    due_.push_back(&watch);
+}
+
+void EventLoop::forget(Watch& watch) {
+    std::replace(calling_.begin(), calling_.end(), &watch, static_cast<Watch*>(nullptr));
+    if (std::exchange(watch.queued_, false)) std::erase(due_, &watch);
+}
+
+bool EventLoop::call_watches() {
+    if (due_.empty()) return false;
+    std::swap(calling_, due_);
+    // By index: a call may stop any of them, which makes its place null.
+    for (std::size_t i = 0; i < calling_.size(); ++i) {
+        if (calling_[i] == nullptr) continue;
+        calling_[i]->queued_ = false;
+        if (!stopped_ && calling_[i]->may_write()) {
+            Watch& watch = *calling_[i];
+            watch.write_awaited_ = false;
+            watch.ready_ &= ~std::uint32_t{EPOLLOUT};
+            const auto call = watch.on_writable_;
+            (*call)();
+            // Else every read of the other end would wake us.
+            if (calling_[i] != nullptr && !watch.write_awaited_) {
+                watch.writes_armed_ = false;
+                watch.arm(EPOLL_CTL_MOD, read_events);
+            }
+        }
+        if (!stopped_ && calling_[i] != nullptr && calling_[i]->may_read()) {
+            const auto call = calling_[i]->on_readable_;
+            (*call)();
+        }
+        if (calling_[i] != nullptr && calling_[i]->wants_call()) queue(*calling_[i]);
+    }
+    calling_.clear();
+    return true;
+}
+
+Watch::Watch(EventLoop& loop, std::function<void()> on_readable, std::function<void()> on_writable)
+    : loop_(loop),
+      on_readable_(std::make_shared<const std::function<void()>>(std::move(on_readable))),
+      on_writable_(std::make_shared<const std::function<void()>>(std::move(on_writable))) {}
+
+void Watch::start(int fd) {
+    stop();
+    fd_ = fd;
+    if (!arm(EPOLL_CTL_ADD, read_events)) {
+        fd_ = -1;
+        throw LinkError(fmt::format("The event loop cannot watch descriptor {}: {}.", fd, error_text(errno)));
+    }
+    ++loop_.watching_;
+}
+
+void Watch::stop() {
+    if (!active()) return;
+    loop_.forget(*this);
+    (void)::epoll_ctl(loop_.epoll_.get(), EPOLL_CTL_DEL, fd_, nullptr);
+    --loop_.watching_;
+    fd_ = -1;
+    ready_ = 0;
+    held_ = false;
+    write_awaited_ = false;
+    writes_armed_ = false;
+}
+
+void Watch::hold(bool held) {
+    held_ = held;
+    if (wants_call()) loop_.queue(*this);
+}
+
+// Arming anew looks at the descriptor anew: what became writable before this is seen.
+void Watch::await_writable() {
+    if (!active() || std::exchange(write_awaited_, true)) return;
+    ready_ &= ~std::uint32_t{EPOLLOUT};
+    writes_armed_ = arm(EPOLL_CTL_MOD, read_events | EPOLLOUT);
+}
+
+bool Watch::arm(int operation, std::uint32_t events) {
+    epoll_event event{events, {this}};
+    return ::epoll_ctl(loop_.epoll_.get(), operation, fd_, &event) == 0;
+}
+
+// ---- signals ----
+
+Signals::Signals(EventLoop& loop, std::initializer_list<int> numbers, std::function<void(int)> on_signal)
+    : on_signal_(std::move(on_signal)), watch_(loop, [this] {
+          const int number = take();
+          if (number == 0) {
+              watch_.drained();
+          } else {
+              on_signal_(number);
+          }
+      }) {
+    sigset_t set{};
+    ::sigemptyset(&set);
+    for (const int number : numbers)
+        ::sigaddset(&set, number);
+    fd_.reset(::signalfd(-1, &set, SFD_NONBLOCK | SFD_CLOEXEC));
+    if (!fd_) fail("signals");
+    watch_.start(fd_.get());
+    ::pthread_sigmask(SIG_BLOCK, &set, &before_);
+}
+
+Signals::~Signals() {
+    watch_.stop();
+    while (take() != 0) {
+    }
+    ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+}
+
+int Signals::take() const {
+    signalfd_siginfo info{};
+    return ::read(fd_.get(), &info, sizeof info) == static_cast<ssize_t>(sizeof info)
+               ? static_cast<int>(info.ssi_signo)
+               : 0;
+}
+
+}  // namespace fauxboard::link
