@@ -78,7 +78,10 @@ class Interactive final : public host::ScreenUser {
         }
     }
 
-    void on_link(link::LinkState, std::string_view why) override { console_.say(std::string(why)); }
+    void on_link(link::LinkState, std::string_view why) override {
+        console_.say(std::string(why));
+        draw();  // there may be no turn any more, with the board gone
+    }
 
     /// What could not be done with the terminal; "" when all went well.
     const std::string& trouble() const { return trouble_; }

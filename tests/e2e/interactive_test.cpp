@@ -210,6 +210,7 @@ TEST_CASE("the board goes away: the status says so, the screen stays, and the te
     CHECK(user.sees("Main menu"));
     CHECK(contains(board.says("log Geeetech"), "LCD OK"));
     CHECK(board.program.stop() == 0);
+    CHECK(user.sees("vanished"));  // with no key pressed
     CHECK(user.shows("vanished"));
     user.signal(SIGHUP);
     CHECK(user.wait() == 0);
