@@ -43,20 +43,6 @@ using printer::SimTime;
 /// What a person can still follow, per second. A real line has some twenty at most.
 constexpr double log_lines_per_second = 100;
 
-/// The faults of the line, as the control channel changes them.
-class LineFaults final : public control::FaultControl {
-  public:
-    explicit LineFaults(host::FaultyLink& line) : line_(line) {}
-    fault::FaultId add(const fault::FaultSpec& spec) override { return line_.add(spec); }
-    bool change(fault::FaultId id, const fault::FaultSpec& spec) override { return line_.change(id, spec); }
-    bool remove(fault::FaultId id) override { return line_.remove(id); }
-    void clear() override { line_.clear(); }
-    std::vector<fault::FaultStatus> list() override { return line_.list(); }
-
-  private:
-    host::FaultyLink& line_;
-};
-
 /// Everything that one run needs, in the order in which it must come and (backwards) go.
 class Run {
   public:
@@ -118,7 +104,6 @@ class Run {
     std::optional<host::LiveBoard> live_;
     std::unique_ptr<link::UdpSocket> udp_;
     std::optional<host::NetworkLine> network_;
-    std::optional<LineFaults> faults_;
     std::optional<host::ControlServer> control_;
     std::optional<host::ScriptHost> script_;
     link::Signals signals_;
@@ -179,7 +164,6 @@ void Run::set_up() {
     options.observer = &observers_;
     board_.emplace(profile_, services, options);
     link_.emplace(make_wire(), *clock_, fault::Direction::to_board);
-    faults_.emplace(*link_);
     for (const std::string& text : options_.faults) {
         const fault::FaultSpec spec = fault::fault_from_text(text);
         if (!fault::is_for_printer(spec)) {
@@ -214,9 +198,9 @@ void Run::open_control() {
     if (options_.control.empty()) {
         return;
     }
-    control_.emplace(host::ControlServer::Parts{
-        loop_, *board_, *live_, *clock_, *link_, &*faults_, [this] { loop_.stop(); },
-        [this](std::string_view text) { say(board::Level::info, text); }});
+    control_.emplace(
+        host::ControlServer::Parts{loop_, *board_, *live_, *clock_, *link_, &*link_, [this] { loop_.stop(); },
+                                   [this](std::string_view text) { say(board::Level::info, text); }});
     observers_.add(*control_);
     control_->open(options_.control);
 }
@@ -225,10 +209,10 @@ void Run::open_script() {
     if (!scenario_) {
         return;
     }
-    script_.emplace(host::ScriptHost::Parts{*live_, *clock_, &*faults_, plug_ ? &*plug_ : nullptr,
-                                            [this] { loop_.stop(); },
-                                            [this](std::string_view text) { say(board::Level::info, text); }},
-                    scenario_, options_.speed);
+    script_.emplace(
+        host::ScriptHost::Parts{*live_, *clock_, &*link_, plug_ ? &*plug_ : nullptr, [this] { loop_.stop(); },
+                                [this](std::string_view text) { say(board::Level::info, text); }},
+        scenario_, options_.speed);
     observers_.add(*script_);
 }
 

@@ -18,8 +18,8 @@ using enum ParamType;
 using printer::Breakdowns;
 using printer::Printer;
 
-FaultControl& faults(const Call& call) {
-    FaultControl* all = call.target.faults();
+fault::FaultControl& faults(const Call& call) {
+    fault::FaultControl* all = call.target.faults();
     if (all == nullptr) {
         throw ControlError(ErrorCode::not_here, "The line of this run takes no faults.");
     }
@@ -99,7 +99,7 @@ Answer change(const Call& call) {
             return Json{{"fault", add_to_printer(call, spec)}};
         });
     }
-    FaultControl& all = faults(call);
+    fault::FaultControl& all = faults(call);
     const fault::FaultId number = fault_id(call);
     if (!with_spec(call, [&](const fault::FaultSpec& spec) { return all.change(number, spec); })) {
         unknown_fault(id);
@@ -119,7 +119,7 @@ Answer remove(const Call& call) {
 
 Answer clear(const Call& call) {
     call.board.tinker(call.now, [](Printer& p) { p.breakdowns.clear(); });
-    if (FaultControl* all = call.target.faults()) {
+    if (fault::FaultControl* all = call.target.faults()) {
         all->clear();
     }
     return Json::object();
@@ -127,7 +127,7 @@ Answer clear(const Call& call) {
 
 Answer list(const Call& call) {
     Json out = Json::array();
-    if (FaultControl* all = call.target.faults()) {
+    if (fault::FaultControl* all = call.target.faults()) {
         for (const fault::FaultStatus& status : all->list()) {
             out.push_back(fault::status_to_json(status));
         }

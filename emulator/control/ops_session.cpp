@@ -118,7 +118,7 @@ Answer status(const Call& call) {
              {"title", profile.title},
              {"t", printer::to_seconds(call.now)},
              {"clients", call.hub.size()}};
-    FaultControl* const faults = call.target.faults();
+    fault::FaultControl* const faults = call.target.faults();
     out["faults"] =
         (faults != nullptr ? faults->list().size() : 0) + call.board.machine().breakdowns.list().size();
     out["counters"] = counters(call.board);

@@ -5,26 +5,11 @@
 
 #include "emulator/board/board.h"
 #include "emulator/control/error.h"
-#include "emulator/fault/fault_line.h"
+#include "emulator/fault/fault_control.h"
 
 namespace fauxboard::control {
 
 using board::SimTime;
-
-/// The faults of the tested line, as far as they can be changed while it runs. Semantics as fault::Faults.
-class FaultControl {
-  public:
-    virtual ~FaultControl() = default;
-    /// Throws FaultSpecError when there is no room for more.
-    virtual fault::FaultId add(const fault::FaultSpec& spec) = 0;
-    /// The fault begins anew. False when there is none of that id. Throws as add().
-    virtual bool change(fault::FaultId id, const fault::FaultSpec& spec) = 0;
-    /// False when there is none of that id.
-    virtual bool remove(fault::FaultId id) = 0;
-    virtual void clear() = 0;
-    /// By id.
-    virtual std::vector<fault::FaultStatus> list() = 0;
-};
 
 /// The running board that a control channel reaches into, and what its host can do with it.
 class Target {
@@ -43,7 +28,7 @@ class Target {
     /// Ends the run, soon.
     virtual void quit() = 0;
     /// Null when this run's line has none.
-    virtual FaultControl* faults() = 0;
+    virtual fault::FaultControl* faults() = 0;
     /// What only the host knows, as members of the answer to `status`: link, speed.
     virtual Json status() const = 0;
 };

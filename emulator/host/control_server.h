@@ -27,7 +27,7 @@ class ControlServer final : public LiveObserver, private control::Target {
         LiveBoard& live;
         Clock& clock;
         const link::Link& link;
-        control::FaultControl* faults;              ///< null: the line takes none
+        fault::FaultControl* faults;                ///< null: the line takes none
         std::function<void()> quit;                 ///< ends the run; called from the event loop
         std::function<void(std::string_view)> say;  ///< what a person wants to know of the channel itself
     };
@@ -61,7 +61,7 @@ class ControlServer final : public LiveObserver, private control::Target {
     void visit(const std::function<void(board::Board&, SimTime)>& use) override { parts_.live.visit(use); }
     SimTime skip(SimTime by) override;
     void quit() override;
-    control::FaultControl* faults() override { return parts_.faults; }
+    fault::FaultControl* faults() override { return parts_.faults; }
     control::Json status() const override;
 
     void take(link::UniqueFd socket);

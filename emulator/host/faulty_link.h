@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "emulator/fault/fault_control.h"
 #include "emulator/fault/faults.h"
 #include "emulator/host/clock.h"
 #include "emulator/link/link.h"
@@ -18,7 +19,7 @@ namespace fauxboard::host {
 /// Like every link it calls its listener from the event loop only. Faults may be changed at any time, also
 /// from inside the listener and before open(); what that sets free comes at once, to the listener on the
 /// loop's next turn.
-class FaultyLink final : public link::Link, private link::LinkListener {
+class FaultyLink final : public link::Link, public fault::FaultControl, private link::LinkListener {
   public:
     /// `inner` is closed, and used by nobody else; it and `clock` outlive this. `reads` says which way the
     /// bytes go that are read from it: Direction::to_board where the screen is at the other end, and
@@ -26,16 +27,12 @@ class FaultyLink final : public link::Link, private link::LinkListener {
     FaultyLink(link::Link& inner, Clock& clock, fault::Direction reads);
     ~FaultyLink() override;
 
-    /// Throws FaultSpecError when there are too many.
-    fault::FaultId add(const fault::FaultSpec& spec);
-    /// The fault begins anew under its id. False when there is none of that id. Throws as add().
-    bool change(fault::FaultId id, const fault::FaultSpec& spec);
-    /// False when there is none of that id.
-    bool remove(fault::FaultId id);
-    /// Removes all. A link that was taken away comes back.
-    void clear();
-    /// By id.
-    std::vector<fault::FaultStatus> list() const { return faults_.list(clock_.now()); }
+    fault::FaultId add(const fault::FaultSpec& spec) override;
+    bool change(fault::FaultId id, const fault::FaultSpec& spec) override;
+    bool remove(fault::FaultId id) override;
+    /// A link that was taken away comes back.
+    void clear() override;
+    std::vector<fault::FaultStatus> list() const override { return faults_.list(clock_.now()); }
 
     void open(link::LinkListener& listener) override;
     void close() override;

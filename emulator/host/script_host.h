@@ -22,7 +22,7 @@ class ScriptHost final : public LiveObserver, private script::Stage {
     struct Parts {
         LiveBoard& live;
         Clock& clock;
-        control::FaultControl* faults;
+        fault::FaultControl* faults;
         ScreenPlug* screen;
         std::function<void()> on_done;
         std::function<void(std::string_view words)> say;
@@ -44,7 +44,7 @@ class ScriptHost final : public LiveObserver, private script::Stage {
 
   private:
     void visit(const std::function<void(board::Board&, SimTime)>& use) override { parts_.live.visit(use); }
-    control::FaultControl* faults() override { return parts_.faults; }
+    fault::FaultControl* faults() override { return parts_.faults; }
     const screen::Screen* screen() override {
         return parts_.screen == nullptr ? nullptr : &parts_.screen->screen();
     }

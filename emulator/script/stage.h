@@ -18,7 +18,7 @@ class Stage {
     /// As control::Target::visit().
     virtual void visit(const std::function<void(board::Board& board, SimTime now)>& use) = 0;
     /// The faults of the line; null when it takes none.
-    virtual control::FaultControl* faults() = 0;
+    virtual fault::FaultControl* faults() = 0;
     /// The touch screen; null when there is none in this process.
     virtual const screen::Screen* screen() = 0;
     /// Touches a button of that screen, walking to its page. Never called without one.

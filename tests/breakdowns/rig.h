@@ -71,7 +71,7 @@ class Rig final : private control::Target, private board::Observer {
     void visit(const std::function<void(board::Board&, SimTime)>& use) override;
     SimTime skip(SimTime by) override { return now_ + by; }
     void quit() override {}
-    control::FaultControl* faults() override { return nullptr; }
+    fault::FaultControl* faults() override { return nullptr; }
     control::Json status() const override { return control::Json::object(); }
     void on_received(SimTime now, board::Channel channel, std::string_view line,
                      board::Verdict verdict) override;

@@ -8,24 +8,12 @@
 
 #include "emulator/control/hub.h"
 #include "emulator/control/session.h"
-#include "emulator/fault/faults.h"
 #include "tests/support/board_driver.h"
+#include "tests/support/loose_faults.h"
 
 namespace fauxboard::control::test {
 
 using namespace std::chrono_literals;
-
-/// Faults without a line: they count, and spoil nothing.
-struct LooseFaults final : FaultControl {
-    fault::Faults all;
-    fault::FaultId add(const fault::FaultSpec& spec) override { return all.add(SimTime{0}, spec); }
-    bool change(fault::FaultId id, const fault::FaultSpec& spec) override {
-        return all.change(SimTime{0}, id, spec);
-    }
-    bool remove(fault::FaultId id) override { return all.remove(SimTime{0}, id); }
-    void clear() override { all.clear(SimTime{0}); }
-    std::vector<fault::FaultStatus> list() override { return all.list(SimTime{0}); }
-};
 
 /// A board in virtual time with its hub: what a host is, without one.
 struct Bench final : Target {
@@ -46,7 +34,7 @@ struct Bench final : Target {
         return skip_to;
     }
     void quit() override { ended = true; }
-    FaultControl* faults() override { return with_faults ? &loose : nullptr; }
+    fault::FaultControl* faults() override { return with_faults ? &loose : nullptr; }
     Json status() const override { return {{"link", {{"kind", "none"}}}}; }
 
     void take() {
@@ -80,7 +68,7 @@ struct Bench final : Target {
 
     Hub hub;
     board::Board own;
-    LooseFaults loose;
+    testing::LooseFaults loose;
     bool with_faults = true;
     bool ended = false;
     SimTime now{0};

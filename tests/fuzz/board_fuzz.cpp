@@ -56,36 +56,16 @@ class Witness final : public board::Observer {
     unsigned sum_ = 0;
 };
 
-std::string unescape(std::string_view text) {
-    std::string bytes;
-    for (const char c : text) {
-        switch (c) {
-            case '~':
-                bytes += '\n';
-                break;
-            case '`':
-                bytes += '\r';
-                break;
-            case '^':
-                bytes += '\0';
-                break;
-            case '|':
-                bytes += "\r\n";
-                break;
-            default:
-                bytes += c;
-        }
-    }
-    return bytes;
-}
-
 /// One run of one script. The transcript is everything said and when.
 class Run {
   public:
-    Run(unsigned mode, std::size_t profile, bool split)
+    static constexpr std::size_t heads = 2;
+
+    /// Mode (a digit) and profile.
+    Run(const std::array<unsigned, heads>& head, bool split)
         : split_(split),
-          board_(shipped_profile(profiles[profile % profiles.size()]), services((mode & 8U) != 0),
-                 {(mode & 1U) == 0, 7, (mode & 4U) != 0 ? &witness_ : nullptr}) {
+          board_(shipped_profile(profiles[head[1] % profiles.size()]), services((mode_of(head[0]) & 8U) != 0),
+                 {(mode_of(head[0]) & 1U) == 0, 7, (mode_of(head[0]) & 4U) != 0 ? &witness_ : nullptr}) {
         board_.power_on(now_);
     }
 
@@ -208,30 +188,9 @@ void Run::finish() {
             "half a file stands under its name");
 }
 
-std::string play(std::string_view script, bool split) {
-    const auto digit = [&](std::size_t i) {
-        return i < script.size() ? static_cast<unsigned char>(script[i]) : 0U;
-    };
-    Run run(digit(0) - '0', digit(1), split);
-    script.remove_prefix(std::min<std::size_t>(script.size(), 2));
-    for_each_line(script, [&](std::string_view line) {
-        if (!line.empty()) {
-            run.step(line);
-        }
-    });
-    run.finish();
-    return run.transcript();
-}
-
 }  // namespace
 }  // namespace fauxboard::fuzz
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    const std::string script(data, data + std::min<std::size_t>(size, 8192));
-    const std::string said = fauxboard::fuzz::play(script, false);
-    if (!script.empty() && ((static_cast<unsigned char>(script[0]) - '0') & 2U) != 0) {
-        fauxboard::fuzz::require(fauxboard::fuzz::play(script, true) == said,
-                                 "another split of the same bytes is answered otherwise");
-    }
-    return 0;
+    return fauxboard::fuzz::play_fuzzed<fauxboard::fuzz::Run>(data, size);
 }

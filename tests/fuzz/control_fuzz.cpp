@@ -16,9 +16,9 @@
 
 #include "emulator/control/hub.h"
 #include "emulator/control/session.h"
-#include "emulator/fault/faults.h"
 #include "protocol/framing.h"
 #include "tests/fuzz/support.h"
+#include "tests/support/loose_faults.h"
 
 namespace fauxboard::fuzz {
 namespace {
@@ -31,17 +31,6 @@ constexpr std::size_t many_steps = 100;
 constexpr SimTime longest_wait{600'000'000};
 /// Virtual time that one script may take: a fuzzer wants many scripts.
 constexpr SimTime longest_run{3'600'000'000};
-
-struct LooseFaults final : control::FaultControl {
-    fault::Faults all;
-    fault::FaultId add(const fault::FaultSpec& spec) override { return all.add(SimTime{0}, spec); }
-    bool change(fault::FaultId id, const fault::FaultSpec& spec) override {
-        return all.change(SimTime{0}, id, spec);
-    }
-    bool remove(fault::FaultId id) override { return all.remove(SimTime{0}, id); }
-    void clear() override { all.clear(SimTime{0}); }
-    std::vector<fault::FaultStatus> list() override { return all.list(SimTime{0}); }
-};
 
 /// What a client got: every line must be whole JSON, and an answer or an event.
 void check_lines(std::string_view text) {
@@ -81,7 +70,7 @@ class Run final : public control::Target {
         return skip_to_;
     }
     void quit() override {}
-    control::FaultControl* faults() override { return &faults_; }
+    fault::FaultControl* faults() override { return &faults_; }
     Json status() const override { return Json::object(); }
 
     void line(std::string_view text);
@@ -96,7 +85,7 @@ class Run final : public control::Target {
 
     control::Hub hub_;
     board::Board board_;
-    LooseFaults faults_;
+    testing::LooseFaults faults_;
     std::size_t chunk_;
     SimTime now_{0};
     SimTime skip_to_{0};

@@ -28,18 +28,6 @@ using printer::SimTime;
 constexpr std::size_t many_steps = 200;
 constexpr SimTime longest_wait{3'600'000'000};
 
-std::string unescape(std::string_view text) {
-    std::string bytes;
-    for (const char c : text) {
-        if (c == '|') {
-            bytes += "\r\n";
-        } else {
-            bytes += c == '~' ? '\n' : c == '`' ? '\r' : c == '^' ? '\0' : c;
-        }
-    }
-    return bytes;
-}
-
 /// The spec, if the text is right; then both of its forms must give it again.
 std::optional<fault::FaultSpec> parse(std::string_view text) {
     try {

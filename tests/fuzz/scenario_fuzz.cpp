@@ -41,7 +41,7 @@ std::optional<behaviour::SourceText> find_scenario(std::string_view name, std::s
 }
 
 /// Board and screen on one line, without a host.
-class Bench final : public script::Stage, private control::FaultControl {
+class Bench final : public script::Stage, private fault::FaultControl {
   public:
     Bench(const script::Cast& cast, script::Player& player)
         : board_(cast.profile, {}, {false, 1, &player}), screen_(cast.screen) {
@@ -89,7 +89,7 @@ class Bench final : public script::Stage, private control::FaultControl {
     }
 
     void visit(const std::function<void(board::Board&, SimTime)>& use) override { use(board_, now_); }
-    control::FaultControl* faults() override { return this; }
+    fault::FaultControl* faults() override { return this; }
     const screen::Screen* screen() override { return &screen_; }
     screen::PressResult press(std::string_view path) override { return screen_.press(path, now_); }
     void note(std::string_view) override {}
@@ -101,7 +101,7 @@ class Bench final : public script::Stage, private control::FaultControl {
     }
     bool remove(fault::FaultId id) override { return faults_.remove(now_, id); }
     void clear() override { faults_.clear(now_); }
-    std::vector<fault::FaultStatus> list() override { return faults_.list(now_); }
+    std::vector<fault::FaultStatus> list() const override { return faults_.list(now_); }
 
     board::Board board_;
     screen::Screen screen_;

@@ -31,27 +31,16 @@ using screen::Screen;
 constexpr SimTime longest{900'000'000};  ///< virtual, of one script
 constexpr std::size_t output_bound = 64UL * 1024;
 
-std::string unescape(std::string_view text) {
-    constexpr std::string_view marks = "~`^";
-    constexpr std::string_view bytes("\n\r\0", 3);
-    std::string out;
-    for (const char c : text) {
-        const std::size_t mark = marks.find(c);
-        if (c == '|') {
-            out += "\r\n";
-        } else {
-            out += mark == std::string_view::npos ? c : bytes[mark];
-        }
-    }
-    return out;
-}
-
 /// One run of one script. The transcript is everything sent and when.
 class Run {
   public:
-    Run(unsigned mode, bool split)
-        : split_(split), screen_(shipped_screen((mode & 1U) != 0 ? "geeetech-a30" : "geeetech-a30t")) {
-        if ((mode & 4U) != 0) {
+    static constexpr std::size_t heads = 1;
+
+    /// Mode: a digit.
+    Run(const std::array<unsigned, heads>& head, bool split)
+        : split_(split),
+          screen_(shipped_screen((mode_of(head[0]) & 1U) != 0 ? "geeetech-a30" : "geeetech-a30t")) {
+        if ((mode_of(head[0]) & 4U) != 0) {
             tour_.emplace(screen_);
         }
         screen_.power_on(now_);
@@ -193,27 +182,9 @@ void Run::finish() {
     transcript_.resize(length);
 }
 
-std::string play(std::string_view script, bool split) {
-    Run run(script.empty() ? 0U : static_cast<unsigned char>(script[0]) - unsigned{'0'}, split);
-    script.remove_prefix(std::min<std::size_t>(script.size(), 1));
-    for_each_line(script, [&](std::string_view line) {
-        if (!line.empty()) {
-            run.step(line);
-        }
-    });
-    run.finish();
-    return run.transcript();
-}
-
 }  // namespace
 }  // namespace fauxboard::fuzz
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    const std::string script(data, data + std::min<std::size_t>(size, 8192));
-    const std::string said = fauxboard::fuzz::play(script, false);
-    if (!script.empty() && ((static_cast<unsigned char>(script[0]) - '0') & 2U) != 0) {
-        fauxboard::fuzz::require(fauxboard::fuzz::play(script, true) == said,
-                                 "another split of the same bytes is taken otherwise");
-    }
-    return 0;
+    return fauxboard::fuzz::play_fuzzed<fauxboard::fuzz::Run>(data, size);
 }

@@ -3,9 +3,11 @@
 // What the fuzz targets share: how a broken rule is reported, and what every line of a board must look like.
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <string_view>
 
 #include "emulator/behaviour/profile.h"
@@ -32,6 +34,55 @@ void for_each_line(std::string_view script, Step&& step) {
         step(script.substr(0, end));
         script.remove_prefix(std::min(end + 1, script.size()));
     }
+}
+
+/// Bytes that a script's line cannot hold: "~" is LF, "`" CR, "|" both, "^" NUL.
+inline std::string unescape(std::string_view text) {
+    std::string bytes;
+    for (const char c : text) {
+        if (c == '|') {
+            bytes += "\r\n";
+        } else {
+            bytes += c == '~' ? '\n' : c == '`' ? '\r' : c == '^' ? '\0' : c;
+        }
+    }
+    return bytes;
+}
+
+/// A script's first byte is a digit, whose bits choose; see play_fuzzed() for bit 1.
+constexpr unsigned mode_of(unsigned head) {
+    return head - unsigned{'0'};
+}
+
+/// Plays a script, line by line, and returns the transcript. Its first `Run::heads` bytes choose what is
+/// played on; a missing one is 0.
+template <class Run>
+std::string play_script(std::string_view script, bool split) {
+    std::array<unsigned, Run::heads> heads{};
+    for (std::size_t i = 0; i < heads.size() && i < script.size(); ++i) {
+        heads[i] = static_cast<unsigned char>(script[i]);
+    }
+    Run run(heads, split);
+    script.remove_prefix(std::min(script.size(), heads.size()));
+    for_each_line(script, [&](std::string_view line) {
+        if (!line.empty()) {
+            run.step(line);
+        }
+    });
+    run.finish();
+    return run.transcript();
+}
+
+/// Plays what a fuzzer made up; twice, with the bytes split otherwise, when its first byte asks for that.
+template <class Run>
+int play_fuzzed(const std::uint8_t* data, std::size_t size) {
+    const std::string script(data, data + std::min<std::size_t>(size, 8192));
+    const std::string said = play_script<Run>(script, false);
+    if (!script.empty() && (mode_of(static_cast<unsigned char>(script[0])) & 2U) != 0) {
+        require(play_script<Run>(script, true) == said,
+                "another split of the same bytes is answered otherwise");
+    }
+    return 0;
 }
 
 /// A profile as shipped, by name. Read once.

@@ -235,7 +235,7 @@ TEST_CASE("the outermost steps are the cases of JUnit: passed, failed, not reach
 TEST_CASE("limits in real time: a wait that takes too long by the clock on the wall is in vain") {
     struct Nowhere final : Stage {
         void visit(const std::function<void(board::Board&, SimTime)>&) override {}
-        control::FaultControl* faults() override { return nullptr; }
+        fault::FaultControl* faults() override { return nullptr; }
         const screen::Screen* screen() override { return nullptr; }
         screen::PressResult press(std::string_view) override { return {}; }
         void note(std::string_view) override {}

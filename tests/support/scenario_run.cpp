@@ -51,16 +51,6 @@ struct Writer final : host::LiveObserver {
     std::string& text;
 };
 
-struct LineFaults final : control::FaultControl {
-    explicit LineFaults(host::FaultyLink& link) : line(link) {}
-    fault::FaultId add(const fault::FaultSpec& spec) override { return line.add(spec); }
-    bool change(fault::FaultId id, const fault::FaultSpec& spec) override { return line.change(id, spec); }
-    bool remove(fault::FaultId id) override { return line.remove(id); }
-    void clear() override { line.clear(); }
-    std::vector<fault::FaultStatus> list() override { return line.list(); }
-    host::FaultyLink& line;
-};
-
 }  // namespace
 
 behaviour::SourceText shipped_scenario(std::string_view name) {
@@ -112,9 +102,8 @@ ScenarioRun play(const behaviour::SourceText& source, const ScenarioSetup& setup
         plug.emplace(cast.screen, *clock);
     }
     host::FaultyLink line(plug ? plug->board_end() : nobody, *clock, fault::Direction::to_board);
-    LineFaults faults(line);
     host::LiveBoard live(board, line, *clock, &observers);
-    host::ScriptHost script({live, *clock, &faults, plug ? &*plug : nullptr, [&loop] { loop.stop(); },
+    host::ScriptHost script({live, *clock, &line, plug ? &*plug : nullptr, [&loop] { loop.stop(); },
                              [&out](std::string_view words) { out.notes.emplace_back(words); }},
                             scenario, speed);
     observers.add(script);
