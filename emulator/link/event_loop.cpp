@@ -174,27 +174,11 @@ void EventLoop::forget(Watch& watch) {
 bool EventLoop::call_watches() {
     if (due_.empty()) return false;
     std::swap(calling_, due_);
-    // By index: a call may stop any of them, which makes its place null.
-    for (std::size_t i = 0; i < calling_.size(); ++i) {
-        if (calling_[i] == nullptr) continue;
-        calling_[i]->queued_ = false;
-        if (!stopped_ && calling_[i]->may_write()) {
-            Watch& watch = *calling_[i];
-            watch.write_awaited_ = false;
-            watch.ready_ &= ~std::uint32_t{EPOLLOUT};
-            const auto call = watch.on_writable_;
-            (*call)();
-            // Else every read of the other end would wake us.
-            if (calling_[i] != nullptr && !watch.write_awaited_) {
-                watch.writes_armed_ = false;
-                watch.arm(EPOLL_CTL_MOD, read_events);
-            }
-        }
-        if (!stopped_ && calling_[i] != nullptr && calling_[i]->may_read()) {
-            const auto call = calling_[i]->on_readable_;
-            (*call)();
-        }
-        if (calling_[i] != nullptr && calling_[i]->wants_call()) queue(*calling_[i]);
+    for (Watch* const& watch : calling_) {  // null as soon as a call stops it
+        if (watch != nullptr) watch->queued_ = false;
+        if (watch != nullptr && !stopped_ && watch->may_write()) watch->call_writable(watch);
+        if (watch != nullptr && !stopped_ && watch->may_read()) watch->call_readable();
+        if (watch != nullptr && watch->wants_call()) queue(*watch);
     }
     calling_.clear();
     return true;
@@ -224,7 +208,6 @@ void Watch::stop() {
     ready_ = 0;
     held_ = false;
     write_awaited_ = false;
-    writes_armed_ = false;
 }
 
 void Watch::hold(bool held) {
@@ -232,11 +215,25 @@ void Watch::hold(bool held) {
     if (wants_call()) loop_.queue(*this);
 }
 
+void Watch::call_readable() {
+    const auto call = on_readable_;
+    (*call)();
+}
+
+void Watch::call_writable(Watch* const& self) {
+    write_awaited_ = false;
+    ready_ &= ~std::uint32_t{EPOLLOUT};
+    const auto call = on_writable_;
+    (*call)();
+    if (self == nullptr || write_awaited_) return;
+    arm(EPOLL_CTL_MOD, read_events);  // else every read of the other end would wake us
+}
+
 // Arming anew looks at the descriptor anew: what became writable before this is seen.
 void Watch::await_writable() {
     if (!active() || std::exchange(write_awaited_, true)) return;
     ready_ &= ~std::uint32_t{EPOLLOUT};
-    writes_armed_ = arm(EPOLL_CTL_MOD, read_events | EPOLLOUT);
+    arm(EPOLL_CTL_MOD, read_events | EPOLLOUT);
 }
 
 bool Watch::arm(int operation, std::uint32_t events) {

@@ -116,6 +116,9 @@ class Watch {
     bool wants_call() const { return may_read() || may_write(); }
     bool may_read() const { return !held_ && (ready_ & (EPOLLIN | EPOLLHUP | EPOLLRDHUP | EPOLLERR)) != 0; }
     bool may_write() const { return write_awaited_ && (ready_ & (EPOLLOUT | EPOLLHUP | EPOLLERR)) != 0; }
+    void call_readable();
+    /// `self` is null as soon as this has been stopped.
+    void call_writable(Watch* const& self);
     bool arm(int operation, std::uint32_t events);
 
     EventLoop& loop_;
@@ -126,7 +129,6 @@ class Watch {
     std::uint32_t ready_ = 0;  ///< events seen and not yet used up
     bool held_ = false;
     bool write_awaited_ = false;
-    bool writes_armed_ = false;
     bool queued_ = false;  ///< in EventLoop::due_
 };
 
