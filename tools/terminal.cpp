@@ -206,7 +206,9 @@ void Terminal::read_keys() {
             events_.on_key(*key);
         }
     }
-    keys_.drained();
+    if (::ioctl(STDIN_FILENO, FIONREAD, &waiting) != 0 || waiting == 0) {
+        keys_.drained();
+    }
 }
 
 int Terminal::columns() const {

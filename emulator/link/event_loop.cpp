@@ -1,11 +1,12 @@
 #include "emulator/link/event_loop.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/signalfd.h>
 #include <sys/timerfd.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <limits>
 #include <utility>
@@ -85,11 +86,13 @@ bool EventLoop::turn(int wait_ms) {
             if (watch->wants_call()) queue(*watch);
         }
     }
+    // What has come is heard before it is judged whether anything came in time.
+    done |= call_watches();
     if (alarm) {
         armed_ = Timer::unset;
         done |= ring_timers();
     }
-    return call_watches() || done;
+    return done;
 }
 
 bool EventLoop::run_tasks() {
@@ -192,6 +195,7 @@ Watch::Watch(EventLoop& loop, std::function<void()> on_readable, std::function<v
 void Watch::start(int fd) {
     stop();
     fd_ = fd;
+    held_ = false;
     if (!arm(EPOLL_CTL_ADD, read_events)) {
         fd_ = -1;
         throw LinkError(fmt::format("The event loop cannot watch descriptor {}: {}.", fd, error_text(errno)));
@@ -243,37 +247,51 @@ bool Watch::arm(int operation, std::uint32_t events) {
 
 // ---- signals ----
 
+namespace {
+
+/// Where the handler says that a signal came: the writing end of a pipe, by the signal's number.
+std::array<std::atomic<int>, NSIG> signal_pipes;
+static_assert(std::atomic<int>::is_always_lock_free, "a signal handler must not wait");
+
+extern "C" void tell_signal(int number) {
+    const int error = errno;
+    const auto byte = static_cast<unsigned char>(number);
+    // A pipe that is full has enough to tell.
+    (void)!::write(signal_pipes[static_cast<std::size_t>(number)], &byte, 1);
+    errno = error;
+}
+
+}  // namespace
+
 Signals::Signals(EventLoop& loop, std::initializer_list<int> numbers, std::function<void(int)> on_signal)
-    : on_signal_(std::move(on_signal)), watch_(loop, [this] {
-          const int number = take();
-          if (number == 0) {
-              watch_.drained();
-          } else {
-              on_signal_(number);
-          }
-      }) {
-    sigset_t set{};
-    ::sigemptyset(&set);
-    for (const int number : numbers)
-        ::sigaddset(&set, number);
-    fd_.reset(::signalfd(-1, &set, SFD_NONBLOCK | SFD_CLOEXEC));
-    if (!fd_) fail("signals");
-    watch_.start(fd_.get());
-    ::pthread_sigmask(SIG_BLOCK, &set, &before_);
+    : on_signal_(std::move(on_signal)), watch_(loop, [this] { take(); }) {
+    std::array<int, 2> ends{};
+    if (::pipe2(ends.data(), O_NONBLOCK | O_CLOEXEC) != 0) fail("pipe for signals");
+    out_.reset(ends[0]);
+    in_.reset(ends[1]);
+    watch_.start(out_.get());
+    for (const int number : numbers) {
+        signal_pipes.at(static_cast<std::size_t>(number)) = in_.get();
+        struct sigaction action {};
+        action.sa_handler = &tell_signal;  // no SA_RESTART: what blocks is interrupted
+        Before before{number, {}};
+        ::sigaction(number, &action, &before.action);
+        before_.push_back(before);
+    }
 }
 
 Signals::~Signals() {
-    watch_.stop();
-    while (take() != 0) {
-    }
-    ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+    for (const Before& before : before_)
+        ::sigaction(before.number, &before.action, nullptr);
 }
 
-int Signals::take() const {
-    signalfd_siginfo info{};
-    return ::read(fd_.get(), &info, sizeof info) == static_cast<ssize_t>(sizeof info)
-               ? static_cast<int>(info.ssi_signo)
-               : 0;
+void Signals::take() {
+    unsigned char number = 0;
+    if (::read(out_.get(), &number, 1) == 1) {
+        on_signal_(number);
+    } else {
+        watch_.drained();
+    }
 }
 
 }  // namespace fauxboard::link

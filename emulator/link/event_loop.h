@@ -19,7 +19,7 @@ namespace fauxboard::link {
 class Timer;
 class Watch;
 
-/// Everything that this program waits for it waits for here: descriptors (Watch), moments (Timer), signals
+/// Where a board, a screen or a tap waits while it runs: for descriptors (Watch), moments (Timer), signals
 /// (Signals), and what was put off (post). One thread; all that is said to a loop is said on it.
 ///
 /// Our own, since the loops of the libraries at hand cost a system call for each message that goes by (a
@@ -100,8 +100,9 @@ class Watch {
     bool active() const { return fd_ >= 0; }
     int fd() const { return fd_; }
 
-    /// The last read found nothing, or less than it asked for: `on_readable` is not called again before more
-    /// comes. Not to be said after a short read when hung_up(): the end is still to be read.
+    /// The last read found nothing (EAGAIN): `on_readable` is not called again before more comes. A read that
+    /// was short may stand for one that finds nothing where reads never stop early, unless hung_up(): then
+    /// the end is still to be read.
     void drained() { ready_ &= EPOLLOUT; }
     /// The other end has closed, as far as was seen.
     bool hung_up() const { return (ready_ & (EPOLLHUP | EPOLLRDHUP | EPOLLERR)) != 0; }
@@ -158,8 +159,8 @@ class Timer {
     std::uint64_t round_ = 0;  ///< in which it rang last
 };
 
-/// Signals as events of the loop. While this lives they do nothing else to the process; what came and was not
-/// handled until its end is swallowed.
+/// Signals as events of the loop. While this lives they do nothing else to the process but interrupt calls
+/// that block; what came and was not handled until its end is swallowed. One object for a signal at a time.
 class Signals {
   public:
     /// `on_signal` gets the number. Throws LinkError when the system refuses.
@@ -169,11 +170,16 @@ class Signals {
     Signals& operator=(const Signals&) = delete;
 
   private:
-    /// The next signal; 0 for none.
-    int take() const;
+    struct Before {
+        int number;
+        struct sigaction action;
+    };
 
-    UniqueFd fd_;  ///< a signalfd
-    sigset_t before_{};
+    void take();
+
+    UniqueFd out_;  ///< a pipe: what the handler tells, one byte each
+    UniqueFd in_;
+    std::vector<Before> before_;
     std::function<void(int)> on_signal_;
     Watch watch_;
 };

@@ -71,12 +71,11 @@ void ForeignPtyLink::make_raw() const {
     }
 }
 
-// VMIN may have been changed under us by another opener; then 0 may also mean "nothing there".
+// VMIN may have been changed under us by another opener; then 0 may also mean "nothing there", or "an empty
+// line".
 ssize_t ForeignPtyLink::read_some(int fd, char* data, std::size_t size) {
     const ssize_t count = ::read(fd, data, size);
-    if (count != 0 || hung_up(fd)) return count;
-    errno = EAGAIN;
-    return -1;
+    return count != 0 ? count : nothing_read(fd);
 }
 
 }  // namespace

@@ -44,6 +44,7 @@ class PtyLink final : public StreamLink {
     void close_device() override;
     void on_end(const std::string& why) override;
     bool keeps_backlog() const override { return true; }
+    bool short_read_is_last() const override { return true; }  // a master is read by bytes, never by lines
 
     void open_master();
     void hold_slave();

@@ -95,8 +95,8 @@ void SerialLink::release_device() {
 ssize_t SerialLink::read_some(int fd, char* data, std::size_t size) {
     const int count = api_.nonblocking_read(port_, data, size);
     if (count > 0) return count;
-    if (count == 0 && hung_up(fd)) return 0;
-    errno = count == 0 ? EAGAIN : last_error();
+    if (count == 0) return nothing_read(fd);
+    errno = last_error();
     return -1;
 }
 

@@ -25,6 +25,14 @@ bool hung_up(int fd) {
     return ::poll(&poll_fd, 1, 0) > 0 && (poll_fd.revents & (POLLHUP | POLLERR | POLLNVAL)) != 0;
 }
 
+ssize_t nothing_read(int fd) {
+    pollfd poll_fd{fd, POLLIN, 0};
+    const bool ready = ::poll(&poll_fd, 1, 0) > 0;
+    if (ready && (poll_fd.revents & (POLLHUP | POLLERR | POLLNVAL)) != 0) return 0;
+    errno = ready ? EINTR : EAGAIN;
+    return -1;
+}
+
 void StreamLink::open(LinkListener& listener) {
     if (session_) throw LinkError(fmt::format("{} is open already.", describe()));
     session_ = std::make_shared<char>();
@@ -85,7 +93,8 @@ void StreamLink::on_readable() {
 StreamLink::Took StreamLink::take() {
     const ssize_t count = read_some(watch_.fd(), buffer_.data(), buffer_.size());
     if (count > 0) {
-        if (static_cast<std::size_t>(count) < buffer_.size() && !watch_.hung_up()) watch_.drained();
+        const bool is_short = static_cast<std::size_t>(count) < buffer_.size();
+        if (is_short && short_read_is_last() && !watch_.hung_up()) watch_.drained();
         stats_.bytes_in += static_cast<std::uint64_t>(count);
         const std::weak_ptr<char> session = session_;
         const unsigned id = attach_count_;

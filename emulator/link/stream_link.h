@@ -49,6 +49,9 @@ class StreamLink : public Link {
     virtual void on_end(const std::string& why) = 0;
     /// As ::read: -1 with errno, EAGAIN where there is nothing; 0 is the end of the stream.
     virtual ssize_t read_some(int fd, char* data, std::size_t size);
+    /// Whether a read that brought less than it asked for has brought all there was. Saves a read each time;
+    /// not so for terminals that somebody may set to lines, and sockets with urgent data.
+    virtual bool short_read_is_last() const { return false; }
     /// As ::write.
     virtual ssize_t write_some(int fd, const char* data, std::size_t size);
     /// Whether what is written before the first go_up() is kept (up to backlog_limit).
@@ -105,7 +108,10 @@ class StreamLink : public Link {
     std::array<char, read_limit> buffer_{};
 };
 
-/// Whether the other side of a terminal is gone. For reads that return nothing, where that may mean either.
+/// Whether the other side of a terminal is gone.
 bool hung_up(int fd);
+/// What read_some() returns for a terminal's read that brought 0 bytes: 0 at the end, else -1 with EAGAIN, or
+/// EINTR where something is there all the same.
+ssize_t nothing_read(int fd);
 
 }  // namespace fauxboard::link

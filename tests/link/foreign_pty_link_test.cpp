@@ -43,6 +43,22 @@ TEST_CASE("another's pty: both ways, raw, and what was said before we came is he
     CHECK(run_until(loop, [&] { return (said += take(other.master.get())) == "L1\r\n"; }));
 }
 
+TEST_CASE("another's pty: set to lines under us, one burst of several is heard whole") {
+    EventLoop loop;
+    Recorder heard;
+    const OtherPty other;
+    const auto link = make_port_link(loop, other.path, 115200);
+    link->open(heard);
+    termios settings{};
+    REQUIRE(::tcgetattr(other.master.get(), &settings) == 0);
+    settings.c_lflag |= ICANON;
+    settings.c_cc[VEOF] = 4;
+    REQUIRE(::tcsetattr(other.master.get(), TCSANOW, &settings) == 0);
+    say(other.master.get(), "M105\nM114\n\x04M115\n");
+    CHECK(run_until(loop, [&] { return heard.bytes == "M105\nM114\nM115\n"; }));
+    CHECK(heard.state_letters() == "u");
+}
+
 TEST_CASE("another's pty: vanishes, is waited for, and comes back under another number") {
     const TemporaryFolder folder;
     const std::string name = folder.file("board");

@@ -183,6 +183,16 @@ TEST_CASE("tcp: a flood comes in pieces and leaves other handlers their turn") {
     CHECK(pieces >= 16);
 }
 
+TEST_CASE("tcp: what follows urgent data is heard") {
+    Listening board;
+    REQUIRE(board.until_states("w"));
+    const UniqueFd client = board.client_up();
+    say(client.get(), "ab");
+    REQUIRE(::send(client.get(), "!", 1, MSG_OOB) == 1);
+    say(client.get(), "M105\n");
+    CHECK(board.until_heard("abM105\n"));
+}
+
 TEST_CASE("tcp: a client that never reads costs whole messages and is still heard") {
     Listening board;
     REQUIRE(board.until_states("w"));
