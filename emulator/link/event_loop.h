@@ -22,9 +22,9 @@ class Watch;
 /// Where a board, a screen or a tap waits while it runs: for descriptors (Watch), moments (Timer), signals
 /// (Signals), and what was put off (post). One thread; all that is said to a loop is said on it.
 ///
-/// Our own, since the loops of the libraries at hand cost a system call for each message that goes by (a
-/// descriptor armed again, or looked at a second time), which is a third of what answering a screen costs.
-/// Here a descriptor is armed once, edge-triggered, and whoever reads it says when nothing is left.
+/// Our own, since the loops of the libraries at hand arm a descriptor again for each message, or look at it a
+/// second time: 1 to 2 us of the 13 that answering a screen took. Here a descriptor is armed once,
+/// edge-triggered, and whoever reads it says when nothing is left.
 class EventLoop {
   public:
     using Task = std::function<void()>;
