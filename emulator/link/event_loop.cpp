@@ -98,14 +98,9 @@ bool EventLoop::turn(int wait_ms) {
 bool EventLoop::run_tasks() {
     if (tasks_.empty()) return false;
     std::swap(running_, tasks_);  // what they post is for the next turn
-    for (std::size_t i = 0; i < running_.size(); ++i) {
-        if (stopped_) {
-            tasks_.insert(tasks_.begin(),
-                          std::make_move_iterator(running_.begin() + static_cast<std::ptrdiff_t>(i)),
-                          std::make_move_iterator(running_.end()));
-            break;
-        }
-        running_[i]();
+    for (const Task& task : running_) {
+        if (stopped_) break;  // for good: what is left is dropped
+        task();
     }
     running_.clear();
     return true;

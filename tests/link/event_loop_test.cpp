@@ -83,7 +83,7 @@ TEST_CASE("loop: what was posted comes in order, what it posts on the next turn"
     CHECK(order == "abc");
 }
 
-TEST_CASE("loop: stop() ends the turn, and nothing that was to come is lost") {
+TEST_CASE("loop: stop() ends the turn at once, and for good") {
     EventLoop loop;
     const Pair pair;
     Reader reader(loop, pair.ours.get());
