@@ -13,8 +13,8 @@
 #include <memory>
 
 #include "emulator/link/error_text.h"
+#include "emulator/link/host_port.h"
 #include "emulator/link/link.h"
-#include "emulator/link/tcp_address.h"
 
 namespace fauxboard::link {
 

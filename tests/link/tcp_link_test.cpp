@@ -3,7 +3,7 @@
 #include <netinet/in.h>
 #include <sys/socket.h>
 
-#include "emulator/link/tcp_address.h"
+#include "emulator/link/host_port.h"
 #include "helpers.h"
 
 using namespace fauxboard::link;

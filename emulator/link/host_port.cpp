@@ -1,4 +1,4 @@
-#include "emulator/link/tcp_address.h"
+#include "emulator/link/host_port.h"
 
 #include <fmt/format.h>
 
