@@ -16,11 +16,11 @@
 #include <utility>
 #include <vector>
 
-#include "emulator/host/host_error.h"
 #include "emulator/host/screen_files.h"
-#include "emulator/host/screen_judge.h"
-#include "emulator/host/transcript.h"
-#include "emulator/host/transcript_words.h"
+#include "emulator/link/host_error.h"
+#include "emulator/record/screen_judge.h"
+#include "emulator/record/transcript.h"
+#include "emulator/record/transcript_words.h"
 #include "tools/report.h"
 
 namespace fauxboard::tools {
@@ -53,7 +53,7 @@ class Inputs {
             add(file);
         }
     }
-    std::vector<host::TranscriptReader> take() { return std::move(readers_); }
+    std::vector<record::TranscriptReader> take() { return std::move(readers_); }
 
   private:
     void add(const std::string& file) {
@@ -66,7 +66,7 @@ class Inputs {
         errno = 0;
         std::ifstream& in = streams_.emplace_back(file, std::ios::binary);
         if (!in || folder) {
-            throw host::HostError(
+            throw link::HostError(
                 fmt::format("{} cannot be read: {}.", file,
                             folder ? "it is a folder" : std::system_category().message(errno)));
         }
@@ -74,7 +74,7 @@ class Inputs {
     }
 
     std::deque<std::ifstream> streams_;
-    std::vector<host::TranscriptReader> readers_;
+    std::vector<record::TranscriptReader> readers_;
 };
 
 ExitCode decode(const DecodeOptions& options) {
@@ -82,14 +82,14 @@ ExitCode decode(const DecodeOptions& options) {
         std::ios::sync_with_stdio(false);  // so that lines of a pipe are taken as they come
         Inputs inputs(options.files);
         const bool live = options.files.empty();
-        std::vector<host::LineJudge> judges = host::line_judges();
+        std::vector<record::LineJudge> judges = record::line_judges();
         if (!options.screen.empty()) {
-            judges.push_back(host::screen_judge(host::load_screen_by_name(options.screen)));
+            judges.push_back(record::screen_judge(host::load_screen_by_name(options.screen)));
         }
-        host::Transcripts transcripts(inputs.take());
+        record::Transcripts transcripts(inputs.take());
         while (auto entry = transcripts.next()) {
-            const host::JudgedLine line = host::judge(std::move(*entry), judges);
-            const std::string text = options.json ? host::json_line(line) : host::text_line(line);
+            const record::JudgedLine line = record::judge(std::move(*entry), judges);
+            const std::string text = options.json ? record::json_line(line) : record::text_line(line);
             std::fwrite(text.data(), 1, text.size(), stdout);
             if (live && std::cin.rdbuf()->in_avail() <= 0) {
                 std::fflush(stdout);
@@ -102,7 +102,7 @@ ExitCode decode(const DecodeOptions& options) {
         return ExitCode::ok;
     } catch (const behaviour::ProfileError& error) {
         return complain("decode", ExitCode::bad_input, error.what());
-    } catch (const host::HostError& error) {
+    } catch (const link::HostError& error) {
         return complain("decode", ExitCode::bad_input, error.what());
     }
 }

@@ -5,7 +5,7 @@
 #include "emulator/behaviour/reference.h"
 #include "emulator/control/ops.h"
 #include "emulator/fault/kind.h"
-#include "emulator/printer/events.h"
+#include "emulator/machine/events.h"
 #include "emulator/script/steps.h"
 #include "protocol/catalogue.h"
 
@@ -22,7 +22,7 @@ void put_text(Json& out, const char* key, std::string_view text) {
 
 Json events_json() {
     Json list = Json::array();
-    for (const printer::EventInfo& event : printer::events()) {
+    for (const machine::EventInfo& event : machine::events()) {
         list.push_back({{"name", event.name}, {"help", event.help}});
     }
     return list;

@@ -6,7 +6,7 @@
 
 #include "emulator/behaviour/actions.h"
 #include "emulator/behaviour/fields.h"
-#include "emulator/printer/events.h"
+#include "emulator/machine/events.h"
 #include "tools/describe_reference.h"
 
 namespace fauxboard::tools {
@@ -133,7 +133,7 @@ Json refresh_schema(Json schema) {
     put_fields(definitions["assignments"], "number_value", true);
     put_actions(definitions);
     Json properties{{"comment", {{"$ref", "#/definitions/comment"}}}};
-    for (const printer::EventInfo& event : printer::events()) {
+    for (const machine::EventInfo& event : machine::events()) {
         properties[std::string(event.name)] = reference("rules", event.help);
     }
     definitions["events"]["properties"] = std::move(properties);

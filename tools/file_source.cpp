@@ -9,7 +9,7 @@
 #include <limits>
 #include <system_error>
 
-#include "emulator/host/host_error.h"
+#include "emulator/link/host_error.h"
 
 namespace fauxboard::tools {
 
@@ -18,11 +18,11 @@ FileSource::FileSource(const std::string& path)
     : fd_(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC)) {
     struct stat info {};
     if (!fd_ || ::fstat(fd_.get(), &info) != 0) {
-        throw host::HostError(
+        throw link::HostError(
             fmt::format("{} cannot be read: {}.", path, std::system_category().message(errno)));
     }
     if (!S_ISREG(info.st_mode)) {
-        throw host::HostError(fmt::format("{} cannot be read: it is no file.", path));
+        throw link::HostError(fmt::format("{} cannot be read: it is no file.", path));
     }
 }
 

@@ -8,7 +8,7 @@
 
 namespace fauxboard::tools {
 
-void add_duration(CLI::App& command, printer::SimTime& duration, const std::string& help) {
+void add_duration(CLI::App& command, machine::SimTime& duration, const std::string& help) {
     command
         .add_option_function<std::string>(
             "--duration",

@@ -10,7 +10,7 @@
 #include <system_error>
 #include <vector>
 
-#include "emulator/host/host_error.h"
+#include "emulator/link/host_error.h"
 
 namespace fauxboard::tools {
 namespace {
@@ -67,7 +67,7 @@ bool end(const Png& png) {
 [[noreturn]] void cannot_write(const std::string& path) {
     const int error = errno;
     std::remove(path.c_str());
-    throw host::HostError(
+    throw link::HostError(
         fmt::format("{} cannot be written: {}.", path, std::system_category().message(error)));
 }
 
@@ -76,7 +76,7 @@ bool end(const Png& png) {
 bool write_png(const std::string& path, const PngPicture& picture) {
     std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "wbe"));
     if (!file) {
-        throw host::HostError(
+        throw link::HostError(
             fmt::format("{} cannot be written: {}.", path, std::system_category().message(errno)));
     }
     Png png;

@@ -17,7 +17,7 @@ struct PngPicture {
 };
 
 /// Writes the picture; true when it is whole. False when next_row() gave up: the file is then gone again.
-/// Throws host::HostError when the file cannot be written.
+/// Throws link::HostError when the file cannot be written.
 bool write_png(const std::string& path, const PngPicture& picture);
 
 }  // namespace fauxboard::tools

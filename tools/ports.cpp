@@ -7,7 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "emulator/host/line_log.h"
+#include "emulator/behaviour/wire_text.h"
 #include "emulator/link/link.h"
 #include "tools/report.h"
 
@@ -28,8 +28,8 @@ std::string table(const std::vector<PortInfo>& ports) {
     bool closed = false;
     for (const PortInfo& port : ports) {
         // The texts come from a device's own memory: no escape sequences for the terminal.
-        text += fmt::format("{:<20}  {:<9}  {:<4}  {}\n", host::printable(port.name), usb_id(port),
-                            port.accessible ? "yes" : "no", host::printable(port.description));
+        text += fmt::format("{:<20}  {:<9}  {:<4}  {}\n", behaviour::as_ascii(port.name), usb_id(port),
+                            port.accessible ? "yes" : "no", behaviour::as_ascii(port.description));
         closed = closed || !port.accessible;
     }
     if (closed) {

@@ -1,16 +1,16 @@
 // `fauxboard replay`: a recorded talk once more, in virtual time, with our board on the other side.
 
-#include "emulator/host/replay.h"
+#include "emulator/record/replay.h"
 
 #include <fmt/format.h>
 
 #include <memory>
 #include <optional>
 
-#include "emulator/host/compare.h"
 #include "emulator/host/folder_card.h"
-#include "emulator/host/host_error.h"
 #include "emulator/host/profile_files.h"
+#include "emulator/link/host_error.h"
+#include "emulator/record/compare.h"
 #include "tools/report.h"
 
 namespace fauxboard::tools {
@@ -20,42 +20,42 @@ struct ReplayArguments {
     std::string profile = "geeetech-a30t";
     std::string capture;
     std::string sd;
-    host::ReplayOptions options;
+    record::ReplayOptions options;
     bool compare = false;
     bool json = false;
 };
 
 /// What the board would have told a person, on stderr so that stdout stays a recording.
-void print_notices(const host::ReplayResult& result) {
-    for (const host::ReplayNotice& notice : result.notices) {
+void print_notices(const record::ReplayResult& result) {
+    for (const record::ReplayNotice& notice : result.notices) {
         if (notice.level >= behaviour::Level::warning) {
-            fmt::print(stderr, "{:.3f} s: {}\n", printer::to_seconds(notice.t), notice.text);
+            fmt::print(stderr, "{:.3f} s: {}\n", machine::to_seconds(notice.t), notice.text);
         }
     }
 }
 
 ExitCode replay(const ReplayArguments& arguments) {
     const auto profile = host::load_profile_by_name(arguments.profile);
-    const auto recording = host::load_recording(std::filesystem::path(arguments.capture));
-    host::ReplayOptions options = arguments.options;
+    const auto recording = record::load_recording(std::filesystem::path(arguments.capture));
+    record::ReplayOptions options = arguments.options;
     std::optional<host::FolderCard> card;
     if (!arguments.sd.empty()) {
         options.services.sd = &card.emplace(arguments.sd);
     }
-    const host::ReplayResult result = host::replay(profile, recording, options);
+    const record::ReplayResult result = record::replay(profile, recording, options);
     print_notices(result);
     if (!arguments.compare) {
         std::string text;
-        for (const host::RecordedLine& line : result.lines) {
-            text += host::recording_line(line);
+        for (const record::RecordedLine& line : result.lines) {
+            text += record::recording_line(line);
         }
         print(text);
         return ExitCode::ok;
     }
-    const host::Comparison comparison =
-        host::compare(recording, result.lines, profile->machine->thermal.fold);
-    print(arguments.json ? host::comparison_json(comparison).dump(2, ' ', true) + "\n"
-                         : host::comparison_text(comparison));
+    const record::Comparison comparison =
+        record::compare(recording, result.lines, profile->machine->thermal.fold);
+    print(arguments.json ? record::comparison_json(comparison).dump(2, ' ', true) + "\n"
+                         : record::comparison_text(comparison));
     return comparison.ok() ? ExitCode::ok : ExitCode::failed;
 }
 
@@ -64,11 +64,11 @@ ExitCode guarded(const ReplayArguments& arguments) {
         return replay(arguments);
     } catch (const behaviour::ProfileError& error) {
         return complain("replay", ExitCode::bad_input, error.what());
-    } catch (const host::RecordingError& error) {
+    } catch (const record::RecordingError& error) {
         return complain("replay", ExitCode::bad_input, error.what());
-    } catch (const host::HostError& error) {
+    } catch (const link::HostError& error) {
         return complain("replay", ExitCode::bad_input, error.what());
-    } catch (const host::ReplayError& error) {
+    } catch (const record::ReplayError& error) {
         return complain("replay", ExitCode::bad_input, arguments.capture + ": " + error.what());
     }
 }

@@ -14,7 +14,6 @@
 #include "emulator/host/eeprom_file.h"
 #include "emulator/host/faulty_link.h"
 #include "emulator/host/folder_card.h"
-#include "emulator/host/host_error.h"
 #include "emulator/host/job_place_file.h"
 #include "emulator/host/json_log.h"
 #include "emulator/host/line_log.h"
@@ -26,9 +25,10 @@
 #include "emulator/host/screen_plug.h"
 #include "emulator/host/script_host.h"
 #include "emulator/link/event_loop.h"
+#include "emulator/link/host_error.h"
 #include "emulator/link/ports.h"
 #include "emulator/link/udp_socket.h"
-#include "emulator/printer/memory_volume.h"
+#include "emulator/machine/memory_volume.h"
 #include "tools/commands.h"
 #include "tools/report.h"
 #include "tools/run_options.h"
@@ -38,7 +38,7 @@ namespace fauxboard::tools {
 namespace {
 
 using link::LinkState;
-using printer::SimTime;
+using machine::SimTime;
 
 /// What a person can still follow, per second. A real line has some twenty at most.
 constexpr double log_lines_per_second = 100;
@@ -66,7 +66,7 @@ class Run {
         return speed.max ? 0 : log_lines_per_second / speed.factor;
     }
     void set_up();
-    void set_up_disks(printer::Services& services);
+    void set_up_disks(machine::Services& services);
     link::Link& make_wire();
     std::unique_ptr<link::Link> make_link();
     void open_script();
@@ -91,7 +91,7 @@ class Run {
     std::shared_ptr<const behaviour::Profile> profile_;
     std::optional<host::FolderCard> card_;
     std::optional<host::FolderCard> udisk_;
-    std::optional<printer::MemoryVolume> scenario_card_;
+    std::optional<machine::MemoryVolume> scenario_card_;
     std::optional<host::EepromFile> eeprom_;
     std::optional<host::JobPlaceFile> job_place_;
     std::optional<host::Recorder> recorder_;
@@ -152,7 +152,7 @@ void Run::set_up() {
         recorder_.emplace(options_.record, [warn](SimTime, std::string_view text) { warn(text); });
         observers_.add(*recorder_);
     }
-    printer::Services services;
+    machine::Services services;
     set_up_disks(services);
     if (!options_.eeprom.empty()) {
         services.eeprom = &eeprom_.emplace(options_.eeprom, warn);
@@ -171,13 +171,13 @@ void Run::set_up() {
         } else if (board_->machine().breakdowns.add(SimTime{0}, fault::to_request(spec)) == 0) {
             throw fault::FaultSpecError(
                 {fmt::format("fault \"{}\": too many faults of the printer; at most {}", text,
-                             printer::Breakdowns::most)});
+                             machine::Breakdowns::most)});
         }
     }
     live_.emplace(*board_, *link_, *clock_, &observers_);
 }
 
-void Run::set_up_disks(printer::Services& services) {
+void Run::set_up_disks(machine::Services& services) {
     if (!options_.sd.empty()) {
         services.sd = &card_.emplace(options_.sd);
     } else if (scenario_ && scenario_->card) {
@@ -185,7 +185,7 @@ void Run::set_up_disks(printer::Services& services) {
     }
     if (!options_.udisk.empty()) {
         if (!profile_->machine->udisk_port) {
-            throw host::HostError(
+            throw link::HostError(
                 fmt::format("The board of the profile {} has no port for a U-disk. Leave --udisk out, or say "
                             "\"machine\": {{\"udisk_port\": true}} in a profile of your own that extends it.",
                             profile_->name));
@@ -227,7 +227,7 @@ ExitCode Run::outcome() {
     for (const fault::FaultStatus& status : link_->list()) {
         faults.push_back(fault::status_to_json(status));
     }
-    for (const printer::Breakdown& breakdown : board_->machine().breakdowns.list()) {
+    for (const machine::Breakdown& breakdown : board_->machine().breakdowns.list()) {
         faults.push_back(fault::breakdown_to_json(breakdown));
     }
     return tell_outcome(options_, script_->player(), *board_, faults, out_, err_);
@@ -295,13 +295,13 @@ void Run::say_summary() {
                     "unknown codes {}, "
                     "no rule {}, requests lost {}, messages lost {}, cut {}. Bytes of the main line: in {}, "
                     "out {}, lost {}.\n",
-                    printer::to_seconds(live_->now()), c.lines_received, c.lines_sent, c.bad_frames,
+                    machine::to_seconds(live_->now()), c.lines_received, c.lines_sent, c.bad_frames,
                     board_->lines_too_long(), c.unknown_codes, c.unmatched, c.requests_lost, c.messages_lost,
                     c.lines_cut, l.bytes_in, l.bytes_out, l.bytes_lost));
     for (const fault::FaultStatus& status : link_->list()) {
         err_.write(host::fault_sentence(status) + "\n");
     }
-    for (const printer::Breakdown& breakdown : board_->machine().breakdowns.list()) {
+    for (const machine::Breakdown& breakdown : board_->machine().breakdowns.list()) {
         err_.write(fault::breakdown_sentence(breakdown) + "\n");
     }
 }
@@ -369,7 +369,7 @@ ExitCode run(RunOptions& options) {
         return Run{options, std::move(scenario)}();
     } catch (const behaviour::ProfileError& error) {
         return complain("run", ExitCode::bad_input, error.what());
-    } catch (const host::HostError& error) {
+    } catch (const link::HostError& error) {
         return complain("run", ExitCode::bad_input, error.what());
     } catch (const fault::FaultSpecError& error) {
         return complain("run", ExitCode::bad_input, error.what());

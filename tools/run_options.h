@@ -8,7 +8,7 @@
 
 #include "emulator/host/line_log.h"
 #include "emulator/host/time_text.h"
-#include "emulator/printer/sim_time.h"
+#include "emulator/machine/sim_time.h"
 
 namespace fauxboard::tools {
 
@@ -47,7 +47,7 @@ struct RunOptions {
     bool profile_given = false;       ///< by the user, not by default
     bool line_given = false;          ///< the same of --port, --tcp, --pty
     std::vector<std::string> faults;  ///< as fault::fault_from_text() reads them
-    printer::SimTime duration = printer::never;
+    machine::SimTime duration = machine::never;
     bool pacing = true;
     bool json = false;
     bool reload = true;

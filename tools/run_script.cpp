@@ -44,7 +44,7 @@ std::string talk_text(const Outcome& outcome) {
     const std::size_t from = outcome.talk.size() - std::min(outcome.talk.size(), shown_talk);
     for (std::size_t i = from; i < outcome.talk.size(); ++i) {
         const script::Talk& talk = outcome.talk[i];
-        out += fmt::format("{:10.3f}  {:<14}  {}\n", printer::to_seconds(talk.at),
+        out += fmt::format("{:10.3f}  {:<14}  {}\n", machine::to_seconds(talk.at),
                            talkers[static_cast<std::size_t>(talk.from)], talk.text);
     }
     return out.empty() ? out : "What passed last:\n" + out;

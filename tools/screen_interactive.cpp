@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "emulator/host/host_error.h"
+#include "emulator/link/host_error.h"
 #include "emulator/screen/tour_report.h"
 #include "protocol/annotate.h"
 #include "tools/report.h"
@@ -62,12 +62,12 @@ class Interactive final : public host::ScreenUser {
             told_silence_ = true;
             console_.say("the board says nothing; is it on, are baud rate and wires right?");
         }
-        const SimTime silence = told_silence_ ? printer::never : session_.first_word_due();
+        const SimTime silence = told_silence_ ? machine::never : session_.first_word_due();
         if (now < next_frame_) {
             return std::min(next_frame_, silence);
         }
         draw();
-        next_frame_ = now + printer::from_seconds(session_.options().speed.factor / frames_per_second);
+        next_frame_ = now + machine::from_seconds(session_.options().speed.factor / frames_per_second);
         return silence;
     }
 
@@ -93,7 +93,7 @@ class Interactive final : public host::ScreenUser {
                 session_.loop(),
                 Terminal::Events{[this](const screen::Key& key) { press(key); }, [this] { draw(); },
                                  [this] { session_.finish(ExitCode::ok); }});
-        } catch (const host::HostError& error) {
+        } catch (const link::HostError& error) {
             trouble_ = error.what();
             session_.finish(ExitCode::usage);
         }

@@ -21,7 +21,7 @@ void set_speed(ScreenOptions& options, const std::string& text) {
 
 void set_timeout(ScreenOptions& options, const std::string& text) {
     const auto time = host::parse_duration(text);
-    if (!time || *time == printer::SimTime{0}) {
+    if (!time || *time == machine::SimTime{0}) {
         throw CLI::ValidationError("--timeout",
                                    "'" + text + "' is no time to wait; expected 500ms, 10s, 5min or seconds");
     }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "emulator/host/time_text.h"
-#include "emulator/printer/sim_time.h"
+#include "emulator/machine/sim_time.h"
 
 namespace fauxboard::tools {
 
@@ -16,7 +16,7 @@ struct ScreenOptions {
     std::string screen = "geeetech-a30t";
     unsigned baud = 115200;
     host::Speed speed;
-    printer::SimTime timeout{10'000'000};  ///< real time until the board's first word
+    machine::SimTime timeout{10'000'000};  ///< real time until the board's first word
     std::string record;                    ///< file; empty: none
     bool json = false;
     bool verbose = false;

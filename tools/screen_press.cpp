@@ -91,7 +91,7 @@ class Press final : public ScreenWalk {
         if (!all) {
             complain("screen", ExitCode::failed, results().back().sentence);
         }
-        return printer::never;
+        return machine::never;
     }
 
     host::TextOutput out_;

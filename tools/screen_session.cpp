@@ -4,8 +4,8 @@
 
 #include <csignal>
 
-#include "emulator/host/host_error.h"
 #include "emulator/host/screen_files.h"
+#include "emulator/link/host_error.h"
 #include "emulator/link/ports.h"
 #include "tools/report.h"
 
@@ -62,11 +62,11 @@ void ScreenSession::fail(ExitCode code, std::string_view sentence) {
 
 host::SimTime ScreenSession::first_word_due() const {
     return screen_.profile().line.deaf +
-           printer::from_seconds(printer::to_seconds(options_.timeout) * options_.speed.factor);
+           machine::from_seconds(machine::to_seconds(options_.timeout) * options_.speed.factor);
 }
 
 host::SimTime ScreenSession::slack() const {
-    return printer::from_seconds(late_s * std::max(0.0, options_.speed.factor - 1));
+    return machine::from_seconds(late_s * std::max(0.0, options_.speed.factor - 1));
 }
 
 std::string ScreenSession::silence_sentence() const {
@@ -74,7 +74,7 @@ std::string ScreenSession::silence_sentence() const {
         "nothing came from the board on {} in {:g} s. Is it on, is its speed {} bit/s, are RX and TX "
         "crossed? "
         "--timeout waits longer",
-        link_->describe(), printer::to_seconds(options_.timeout), options_.baud);
+        link_->describe(), machine::to_seconds(options_.timeout), options_.baud);
 }
 
 ExitCode guard_screen(const std::function<ExitCode()>& body) {
@@ -82,7 +82,7 @@ ExitCode guard_screen(const std::function<ExitCode()>& body) {
         return body();
     } catch (const behaviour::ProfileError& error) {
         return complain("screen", ExitCode::bad_input, error.what());
-    } catch (const host::HostError& error) {
+    } catch (const link::HostError& error) {
         return complain("screen", ExitCode::bad_input, error.what());
     } catch (const link::LinkError& error) {
         return complain("screen", ExitCode::no_port, error.what());

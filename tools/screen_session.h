@@ -17,7 +17,7 @@ namespace fauxboard::tools {
 /// The screen, its line, its clock, in the order in which they must come and (backwards) go.
 class ScreenSession {
   public:
-    /// Opens nothing yet. Throws behaviour::ProfileError, host::HostError and link::LinkError.
+    /// Opens nothing yet. Throws behaviour::ProfileError, link::HostError and link::LinkError.
     explicit ScreenSession(const ScreenOptions& options);
 
     /// Opens the line and runs until finish(), a signal, or the end of the line. Throws link::LinkError.

@@ -64,7 +64,7 @@ class Show final : public ScreenWalk {
             complain("screen", ExitCode::ok, reason_);
         }
         shown_ = true;
-        return printer::never;
+        return machine::never;
     }
 
     std::size_t page_;

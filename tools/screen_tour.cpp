@@ -7,8 +7,8 @@
 #include <fstream>
 #include <system_error>
 
-#include "emulator/host/host_error.h"
 #include "emulator/host/text_output.h"
+#include "emulator/link/host_error.h"
 #include "emulator/screen/tour_report.h"
 #include "tools/report.h"
 #include "tools/screen_commands.h"
@@ -61,7 +61,7 @@ class WholeTour final : public ScreenWalk {
     }
     SimTime on_done(SimTime) override {
         session().finish(tour()->passed() ? ExitCode::ok : ExitCode::failed);
-        return printer::never;
+        return machine::never;
     }
 
     Progress progress_;
@@ -74,7 +74,7 @@ std::ofstream open_junit(const std::string& file) {
         errno = 0;
         out.open(file, std::ios::binary | std::ios::trunc);
         if (!out) {
-            throw host::HostError(
+            throw link::HostError(
                 fmt::format("The JUnit report {} cannot be written ({}). Name a file in a folder of yours.",
                             file, std::system_category().message(errno)));
         }

@@ -24,7 +24,7 @@ SimTime ScreenWalk::on_turn(SimTime now) {
     }
     if (!heard_ && now >= session_.first_word_due()) {
         session_.fail(ExitCode::timed_out, session_.silence_sentence());
-        return printer::never;
+        return machine::never;
     }
     if (!started_) {
         const SimTime begin = heard_ ? *heard_ + after_first_word : live.line_start() + first_word;
@@ -41,7 +41,7 @@ SimTime ScreenWalk::on_turn(SimTime now) {
     for (; told_ < results().size(); ++told_) {
         on_result(results()[told_]);
     }
-    const SimTime limit = heard_ ? printer::never : session_.first_word_due();
+    const SimTime limit = heard_ ? machine::never : session_.first_word_due();
     if (tour_ && !tour_->done()) {
         return limit;
     }

@@ -24,7 +24,7 @@
 namespace fauxboard::tools {
 namespace {
 
-using printer::SimTime;
+using machine::SimTime;
 
 struct SendOptions {
     std::string port;

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "emulator/host/host_error.h"
+#include "emulator/link/host_error.h"
 #include "emulator/sliced/picture_rows.h"
 #include "tools/file_source.h"
 #include "tools/png_file.h"
@@ -22,7 +22,7 @@
 namespace fauxboard::tools {
 namespace {
 
-using host::HostError;
+using link::HostError;
 using sliced::PictureRows;
 using sliced::SlicedFile;
 

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "emulator/host/line_log.h"
+#include "emulator/behaviour/wire_text.h"
 
 namespace fauxboard::tools {
 namespace {
@@ -72,7 +72,7 @@ std::string sliced_text(const Header& header, std::uint64_t file_bytes) {
                                                  header.level_sets));
     }
     if (!header.machine.empty()) {
-        text += row("Machine", host::printable(header.machine));
+        text += row("Machine", behaviour::as_ascii(header.machine));
     }
     if (header.slicer_version != 0) {
         text += row("Slicer", slicer(header.slicer_version));

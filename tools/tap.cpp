@@ -15,15 +15,15 @@
 
 #include "emulator/host/clock.h"
 #include "emulator/host/faulty_link.h"
-#include "emulator/host/host_error.h"
 #include "emulator/host/json_log.h"
-#include "emulator/host/pcapng.h"
 #include "emulator/host/recorder.h"
 #include "emulator/host/tap.h"
 #include "emulator/host/tap_end.h"
 #include "emulator/host/tap_log.h"
 #include "emulator/host/tap_talk.h"
 #include "emulator/link/event_loop.h"
+#include "emulator/link/host_error.h"
+#include "emulator/record/pcapng.h"
 #include "tools/option_values.h"
 #include "tools/report.h"
 
@@ -31,7 +31,7 @@ namespace fauxboard::tools {
 namespace {
 
 using host::TapSide;
-using printer::SimTime;
+using machine::SimTime;
 
 constexpr SimTime report_period{10'000'000};
 
@@ -42,7 +42,7 @@ struct TapOptions {
     std::string record;
     std::string pcapng;
     std::vector<std::string> faults;  ///< as fault::fault_from_text() reads them
-    SimTime duration = printer::never;
+    SimTime duration = machine::never;
     host::TapLog::Options log;
     bool verbose = false;
     bool json = false;
@@ -92,7 +92,7 @@ class TapRun final : public host::TapObserver {
     host::JsonLog json_{out_};
     host::Observers lines_;
     std::optional<host::Recorder> recorder_;
-    std::optional<host::PcapngWriter> capture_;
+    std::optional<record::PcapngWriter> capture_;
     std::unique_ptr<host::Clock> clock_;
     std::unique_ptr<host::Alarm> alarm_;
     std::unique_ptr<link::Link> a_;
@@ -184,7 +184,7 @@ void TapRun::report() {
 }
 
 void TapRun::arm() {
-    alarm_->at(std::min({talk_->due(), options_.duration, options_.verbose ? next_report_ : printer::never}));
+    alarm_->at(std::min({talk_->due(), options_.duration, options_.verbose ? next_report_ : machine::never}));
 }
 
 void TapRun::wake() {
@@ -210,7 +210,7 @@ void TapRun::operator()() {
     clock_->run();
     tap_->close();
     talk_->finish();
-    err_.write(fmt::format("After {:.3f} s: {}; {}; {}.\n", printer::to_seconds(clock_->now()),
+    err_.write(fmt::format("After {:.3f} s: {}; {}; {}.\n", machine::to_seconds(clock_->now()),
                            side_text(TapSide::a), side_text(TapSide::b), delay_text()));
     if (faulty_) {
         for (const fault::FaultStatus& status : faulty_->list()) {
@@ -223,7 +223,7 @@ ExitCode tap(const TapOptions& options) {
     try {
         TapRun{options}();
         return ExitCode::ok;
-    } catch (const host::HostError& error) {
+    } catch (const link::HostError& error) {
         return complain("tap", ExitCode::bad_input, error.what());
     } catch (const fault::FaultSpecError& error) {
         return complain("tap", ExitCode::bad_input, error.what());

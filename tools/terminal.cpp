@@ -15,7 +15,7 @@
 #include <cstring>
 #include <system_error>
 
-#include "emulator/host/host_error.h"
+#include "emulator/link/host_error.h"
 // Its macros are named as other headers' functions are.
 #define NCURSES_NOMACROS 1
 #include <ncurses.h>
@@ -45,7 +45,7 @@ link::UniqueFd open_again() {
     const bool known = ::ttyname_r(STDIN_FILENO, name.data(), name.size()) == 0;
     link::UniqueFd fd(::open(known ? name.data() : "/dev/tty", O_RDONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
     if (!fd) {
-        throw host::HostError(fmt::format("The terminal {} cannot be opened ({}). Use press, tour and show.",
+        throw link::HostError(fmt::format("The terminal {} cannot be opened ({}). Use press, tour and show.",
                                           known ? name.data() : "/dev/tty",
                                           std::system_category().message(errno)));
     }
@@ -113,7 +113,7 @@ struct Terminal::Curses {
         handle = ::newterm(nullptr, stdout, stdin);
         if (handle == nullptr) {
             const char* term = std::getenv("TERM");
-            throw host::HostError(
+            throw link::HostError(
                 fmt::format("Nothing is known about a terminal of the kind '{}'. Set TERM to what yours is "
                             "(xterm, mostly), or use press, tour and show.",
                             term == nullptr ? "" : term));

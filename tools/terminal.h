@@ -24,7 +24,7 @@ class Terminal {
     /// Whether stdin and stdout are a terminal.
     static bool here();
 
-    /// Takes the terminal over. Throws host::HostError when it knows no way to draw on it.
+    /// Takes the terminal over. Throws link::HostError when it knows no way to draw on it.
     Terminal(link::EventLoop& loop, Events events);
     ~Terminal();
     Terminal(const Terminal&) = delete;

@@ -9,7 +9,7 @@
 
 namespace fauxboard::behaviour::rows {
 
-using printer::HeaterId;
+using machine::HeaterId;
 using Args = std::span<const Value>;
 
 inline std::optional<double> given(const Value& v) {

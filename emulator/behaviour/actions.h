@@ -6,14 +6,14 @@
 
 #include "emulator/behaviour/notice.h"
 #include "emulator/behaviour/value.h"
-#include "emulator/printer/printer.h"
+#include "emulator/machine/printer.h"
 #include "protocol/command.h"
 
 namespace fauxboard::behaviour {
 
 /// What an action may touch.
 struct ActionContext {
-    printer::Printer& printer;
+    machine::Printer& printer;
     std::span<double> variables;  ///< the profile's own
     NoticeSink& notices;
     const protocol::Command* command = nullptr;  ///< the request that is carried out; null in events

@@ -15,7 +15,7 @@ using enum ArgType;
 void leveling_adjust(ActionContext& c, Args a) {
     set_field(c.printer, *find_field("leveling.manual_z"),
               Value::of(c.printer.leveling.manual_z_mm + a[0].number));
-    printer::MoveRequest request;
+    machine::MoveRequest request;
     request.values[2] = a[0].number;
     request.force_relative = true;
     request.limits = false;  // the page exists to find out where the bed is
@@ -62,7 +62,7 @@ void eeprom_save(ActionContext& c, Args a) {
 void board_stall(ActionContext& c, Args a) {
     const double least = std::clamp(a[0].number, 0.0, 60000.0);
     const double most = std::clamp(number_or(a[1], least), least, 60000.0);
-    c.printer.stall(printer::from_seconds((least + (most - least) * c.printer.random()) / 1000));
+    c.printer.stall(machine::from_seconds((least + (most - least) * c.printer.random()) / 1000));
 }
 
 void stepper_select(ActionContext& c, Args a) {

@@ -12,15 +12,15 @@ namespace fauxboard::behaviour::rows {
 namespace {
 
 using enum ArgType;
-using printer::BreakdownInfo;
-using printer::BreakdownParameter;
-using printer::BreakdownUnit;
+using machine::BreakdownInfo;
+using machine::BreakdownParameter;
+using machine::BreakdownUnit;
 
 const BreakdownInfo* find(ActionContext& c, std::string_view name) {
-    const BreakdownInfo* info = printer::find_breakdown(name);
+    const BreakdownInfo* info = machine::find_breakdown(name);
     if (info == nullptr) {
         std::vector<std::string_view> names;
-        for (const BreakdownInfo& each : printer::breakdowns()) {
+        for (const BreakdownInfo& each : machine::breakdowns()) {
             names.push_back(each.name);
         }
         const std::string_view near = nearest(name, names);
@@ -32,7 +32,7 @@ const BreakdownInfo* find(ActionContext& c, std::string_view name) {
 
 /// The parameter that takes words, or the one that takes a number, into the request. False, and said why,
 /// when there is none or the value is none of it.
-bool take_part(ActionContext& c, printer::BreakdownRequest& request, const Value& v, bool words) {
+bool take_part(ActionContext& c, machine::BreakdownRequest& request, const Value& v, bool words) {
     if (v.none()) {
         return true;
     }
@@ -67,12 +67,12 @@ void fault_set(ActionContext& c, Args a) {
     if (info == nullptr) {
         return;
     }
-    printer::BreakdownRequest request = printer::default_request(*info);
+    machine::BreakdownRequest request = machine::default_request(*info);
     if (!take_part(c, request, a[1], true) || !take_part(c, request, a[2], false)) {
         return;
     }
     if (a[3].is_number()) {
-        request.length = printer::from_seconds(std::clamp(a[3].number, 1e-6, 1e9));
+        request.length = machine::from_seconds(std::clamp(a[3].number, 1e-6, 1e9));
     }
     if (c.printer.breakdowns.add(c.printer.now(), request) == 0) {
         refuse(c, "no room for more faults; clear some first");

@@ -9,8 +9,8 @@ namespace fauxboard::behaviour::rows {
 namespace {
 
 using enum ArgType;
-using printer::Feeder;
-using printer::MoveOutcome;
+using machine::Feeder;
+using machine::MoveOutcome;
 
 std::optional<HeaterId> heater(ActionContext& c, const Value& name) {
     if (name.text == "nozzle") {
@@ -58,8 +58,8 @@ void motion_run(ActionContext& c, Args a) {
 }
 
 void motion_move(ActionContext& c, Args a) {
-    printer::MoveRequest request;
-    for (std::size_t i = 0; i < printer::axis_count; ++i) {
+    machine::MoveRequest request;
+    for (std::size_t i = 0; i < machine::axis_count; ++i) {
         request.values[i] = given(a[i]);
     }
     request.feed_mm_min = given(a[4]);
@@ -124,7 +124,7 @@ void mixer_template(ActionContext& c, Args a) {
     ratio_check(c, c.printer.mixer.select_template(whole(a[0], 1, 14).value_or(0)));
 }
 void mixer_range(ActionContext& c, Args a) {
-    printer::Mixer& mixer = c.printer.mixer;
+    machine::Mixer& mixer = c.printer.mixer;
     ratio_check(c, a[0].none() || mixer.set_start(a[0].number));
     ratio_check(c, a[1].none() || mixer.set_end(a[1].number));
     ratio_check(c, a[2].none() || mixer.set_start_height(a[2].number));

@@ -5,13 +5,13 @@
 #include <cmath>
 
 #include "emulator/behaviour/action_rows.h"
-#include "emulator/printer/resin_files.h"
+#include "emulator/resin/resin_files.h"
 
 namespace fauxboard::behaviour::rows {
 namespace {
 
 using enum ArgType;
-using printer::Resin;
+using machine::Resin;
 
 /// The resin part, or nothing, and it is said why.
 Resin* part(ActionContext& c) {
@@ -24,7 +24,7 @@ Resin* part(ActionContext& c) {
 /// Nothing moves by hand while a print does.
 Resin* at_rest(ActionContext& c) {
     Resin* const resin = part(c);
-    if (resin != nullptr && c.printer.job.status() == printer::JobStatus::printing) {
+    if (resin != nullptr && c.printer.job.status() == machine::JobStatus::printing) {
         refuse(c, "not while printing; pause the print first");
         return nullptr;
     }
@@ -97,7 +97,7 @@ void remove(ActionContext& c, Args a) {
     }
 }
 
-template <std::string (*Text)(const printer::Printer&)>
+template <std::string (*Text)(const machine::Printer&)>
 void write(ActionContext& c, Args a) {
     if (Resin* const resin = part(c)) {
         resin->write(a[0].is_text() ? a[0].text : std::string_view{}, Text(c.printer));
@@ -112,7 +112,7 @@ void config_set(ActionContext& c, Args) {
     }
     for (char letter = 'A'; letter <= 'Z'; ++letter) {
         const auto value = c.command->number_of(letter);
-        const auto* info = value ? printer::find_resin_setting(c.command->number, letter) : nullptr;
+        const auto* info = value ? machine::find_resin_setting(c.command->number, letter) : nullptr;
         if (info == nullptr) {
             continue;
         }
@@ -144,7 +144,7 @@ void wifi(ActionContext& c, Args a, bool access_point) {
         return word.substr(0, word.find_last_not_of(marks) + 1);
     };
     std::string_view rest = a[0].text;
-    printer::Wifi& net = c.printer.wifi;
+    machine::Wifi& net = c.printer.wifi;
     net.ssid = take(rest).substr(0, 39);
     resin->wifi_password = take(rest).substr(0, 63);
     net.enabled = true;
@@ -154,13 +154,13 @@ void wifi(ActionContext& c, Args a, bool access_point) {
 void reboot(ActionContext& c, Args a) {
     if (Resin* const resin = part(c)) {
         const double ms = std::clamp(number_or(a[0], 0), 0.0, 3600e3);
-        resin->reboot_in(printer::from_seconds(ms / 1000), c.printer.now());
+        resin->reboot_in(machine::from_seconds(ms / 1000), c.printer.now());
     }
 }
 
 /// A board that cannot take its requests as fast as they come.
 void wedge(ActionContext& c, Args a) {
-    if (printer::to_seconds(c.printer.now()) - a[0].number < a[1].number / 1000) {
+    if (machine::to_seconds(c.printer.now()) - a[0].number < a[1].number / 1000) {
         refuse(c, "requests came too fast: the board hangs until it is reset");
         c.printer.hang(true);
     }
@@ -200,10 +200,10 @@ constexpr std::array table{
     ActionInfo{"resin.remove", "", "removes a file of the stick (M30); resin.outcome says what became of it",
                name_args, remove},
     ActionInfo{"resin.write_backup", "", "writes the settings into a file of the stick, as requests (M8512)",
-               name_args, write<printer::backup_text>},
+               name_args, write<machine::backup_text>},
     ActionInfo{"resin.write_diagnostics", "",
                "writes words of status and settings into a file of the stick (M8093)", name_args,
-               write<printer::diagnostics_text>},
+               write<machine::diagnostics_text>},
     ActionInfo{"config.set",
                "",
                "settings of this code (M8xxx), by the letters of the request; the machine uses them after "

@@ -8,7 +8,7 @@ namespace fauxboard::behaviour::rows {
 namespace {
 
 using enum ArgType;
-using printer::Transfer;
+using machine::Transfer;
 
 std::string_view words(const Value& v) {
     return v.is_text() ? v.text : std::string_view{};
@@ -22,7 +22,7 @@ std::uint64_t place(const Value& v) {
 }
 
 /// The file that must not change: the one being printed.
-std::string_view in_use(const printer::Printer& p) {
+std::string_view in_use(const machine::Printer& p) {
     return p.job.active() && p.job.volume() == p.storage.chosen() ? std::string_view(p.job.path())
                                                                   : std::string_view{};
 }

@@ -28,7 +28,7 @@ void each_line(std::string_view image, F&& use) {
     }
 }
 
-void append_value(std::string& out, const Field& field, const printer::Printer& printer) {
+void append_value(std::string& out, const Field& field, const machine::Printer& printer) {
     const Value value = field.get(printer);
     if (value.none()) {
         return;  // of a part that this machine has not
@@ -65,7 +65,7 @@ std::uint64_t note_of(const Value& value) {
 }
 
 /// Whether the image says all of it already.
-bool written(printer::Printer& printer, std::string_view prefix) {
+bool written(machine::Printer& printer, std::string_view prefix) {
     const std::vector<std::uint64_t>& notes = printer.eeprom_image.notes();
     const std::vector<const Field*>& stored = stored_fields();
     if (notes.empty()) {
@@ -83,8 +83,8 @@ bool written(printer::Printer& printer, std::string_view prefix) {
     return true;
 }
 
-void write(printer::Printer& printer, std::string_view prefix) {
-    printer::EepromImage& image = printer.eeprom_image;
+void write(machine::Printer& printer, std::string_view prefix) {
+    machine::EepromImage& image = printer.eeprom_image;
     const std::vector<const Field*>& stored = stored_fields();
     std::string& draft = image.draft();
     draft.clear();
@@ -112,7 +112,7 @@ void write(printer::Printer& printer, std::string_view prefix) {
 
 }  // namespace
 
-std::string make_image(const printer::Printer& printer) {
+std::string make_image(const machine::Printer& printer) {
     std::string image;
     for (const Field* field : stored_fields()) {
         append_value(image, *field, printer);
@@ -120,18 +120,18 @@ std::string make_image(const printer::Printer& printer) {
     return image;
 }
 
-bool save_fields(printer::Printer& printer, std::string_view prefix) {
+bool save_fields(machine::Printer& printer, std::string_view prefix) {
     if (!written(printer, prefix)) {
         write(printer, prefix);
     }
     return printer.eeprom_store() == nullptr || printer.eeprom_store()->save(printer.eeprom_image);
 }
 
-void load_fields(printer::Printer& printer, std::string_view prefix) {
+void load_fields(machine::Printer& printer, std::string_view prefix) {
     apply_image(printer, printer.eeprom_image, prefix);
 }
 
-void apply_image(printer::Printer& printer, std::string_view image, std::string_view prefix) {
+void apply_image(machine::Printer& printer, std::string_view image, std::string_view prefix) {
     each_line(image, [&](std::string_view path, std::string_view text) {
         const Field* field = find_field(path);
         if (field == nullptr || !field->stored || !path.starts_with(prefix)) {

@@ -10,7 +10,7 @@
 
 namespace fauxboard::behaviour::rows {
 
-using printer::Printer;
+using machine::Printer;
 
 template <class T>
 Value as_value(const T& v) {

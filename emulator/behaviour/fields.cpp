@@ -64,7 +64,7 @@ std::string_view nearest_field(std::string_view path) {
     return nearest(path, names);
 }
 
-SetResult set_field(printer::Printer& printer, const Field& field, const Value& value) {
+SetResult set_field(machine::Printer& printer, const Field& field, const Value& value) {
     if (field.set == nullptr) {
         return SetResult::refused;
     }

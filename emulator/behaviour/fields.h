@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "emulator/behaviour/value.h"
-#include "emulator/printer/printer.h"
+#include "emulator/machine/printer.h"
 
 namespace fauxboard::behaviour {
 
@@ -22,8 +22,8 @@ struct Field {
     double max;
     bool stored;  ///< part of the EEPROM image
     std::string_view help;
-    Value (*get)(const printer::Printer&);         ///< nothing on a machine without this part
-    void (*set)(printer::Printer&, const Value&);  ///< null: read only
+    Value (*get)(const machine::Printer&);         ///< nothing on a machine without this part
+    void (*set)(machine::Printer&, const Value&);  ///< null: read only
 };
 
 /// Every field, grouped by part, in the order of the reference.
@@ -38,6 +38,6 @@ std::string_view nearest_field(std::string_view path);
 enum class SetResult : std::uint8_t { done, clamped, refused };
 /// Puts `value` into the field, within its bounds. Refused: read only, wrong kind, not a finite
 /// number, or no such part in this machine.
-SetResult set_field(printer::Printer& printer, const Field& field, const Value& value);
+SetResult set_field(machine::Printer& printer, const Field& field, const Value& value);
 
 }  // namespace fauxboard::behaviour

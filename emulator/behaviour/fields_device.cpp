@@ -25,7 +25,7 @@ constexpr std::array table{
           [](const Printer& p) { return p.storage.chosen(); }),
     shown("card.entries", integer, "", "entries of the folder shown",
           [](const Printer& p) {
-              std::vector<printer::CardEntry> entries;
+              std::vector<machine::CardEntry> entries;
               p.storage.listing(entries, p.config().card.max_listed);
               return entries.size();
           }),
@@ -46,7 +46,7 @@ constexpr std::array table{
     shown("job.shown_path", text, "",
           "FN of L3: job.path while a job is under way or has just finished, else empty",
           [](const Printer& p) {
-              return p.job.status() == printer::JobStatus::idle ? std::string_view{}
+              return p.job.status() == machine::JobStatus::idle ? std::string_view{}
                                                                 : std::string_view{p.job.path()};
           }),
     shown("job.selected", boolean, "", "a file is selected",
@@ -188,7 +188,7 @@ constexpr std::array table{
     shown("identity.hardware", text, "", "HV of L9",
           [](const Printer& p) { return std::string_view{p.config().identity.hardware}; }),
     shown("board.seconds", number, "s", "time since the board's world began",
-          [](const Printer& p) { return printer::to_seconds(p.now()); }),
+          [](const Printer& p) { return machine::to_seconds(p.now()); }),
 };
 
 }  // namespace

@@ -10,9 +10,9 @@
 namespace fauxboard::behaviour::rows {
 namespace {
 
-using printer::BreakdownId;
-using printer::HeaterId;
-using printer::ThermalAlarm;
+using machine::BreakdownId;
+using machine::HeaterId;
+using machine::ThermalAlarm;
 using enum FieldType;
 
 std::string_view alarm_words(ThermalAlarm alarm) {
@@ -54,9 +54,9 @@ constexpr std::array shown_rows{
 template <std::size_t... I>
 std::vector<Field> make_rows(std::index_sequence<I...>) {
     static const std::array<std::string, sizeof...(I)> paths{
-        ("faults." + std::string(printer::breakdowns()[I].name))...};
+        ("faults." + std::string(machine::breakdowns()[I].name))...};
     std::vector<Field> rows(shown_rows.begin(), shown_rows.end());
-    (rows.push_back(shown(paths[I], boolean, "", printer::breakdowns()[I].help,
+    (rows.push_back(shown(paths[I], boolean, "", machine::breakdowns()[I].help,
                           [](const Printer& p) { return p.breakdowns.active(static_cast<BreakdownId>(I)); })),
      ...);
     return rows;
@@ -65,7 +65,7 @@ std::vector<Field> make_rows(std::index_sequence<I...>) {
 }  // namespace
 
 std::span<const Field> fault_fields() {
-    static const std::vector<Field> rows = make_rows(std::make_index_sequence<printer::breakdown_count>());
+    static const std::vector<Field> rows = make_rows(std::make_index_sequence<machine::breakdown_count>());
     return rows;
 }
 

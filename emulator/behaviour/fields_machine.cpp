@@ -7,9 +7,9 @@
 namespace fauxboard::behaviour::rows {
 namespace {
 
-using printer::Axis;
-using printer::HeaterId;
-using printer::ThermalChannel;
+using machine::Axis;
+using machine::HeaterId;
+using machine::ThermalChannel;
 using enum FieldType;
 
 template <HeaterId Id>
@@ -88,12 +88,14 @@ constexpr std::array table{
         [](const Printer& p) { return p.motion.babystep_mm(); },
         [](Printer& p, const Value& v) {
             p.motion.set_babystep(v.number);
-            p.events.raise(printer::EventId::babystep_changed);
+            p.events.raise(machine::EventId::babystep_changed);
         }),
     handled(
         "speed.percent", integer, "%", 10, 999, "print speed (M220)",
         [](const Printer& p) { return p.motion.speed_percent(); },
-        [](Printer& p, const Value& v) { p.motion.set_speed_percent(static_cast<int>(std::lround(v.number))); }),
+        [](Printer& p, const Value& v) {
+            p.motion.set_speed_percent(static_cast<int>(std::lround(v.number)));
+        }),
 
     plain("fans.part", integer, "%", 0, 100, "part cooling fan", FAUXBOARD_PLACE(fans.part_percent)),
     plain("fans.second", integer, "%", 0, 100, "second fan (M106 P2)", FAUXBOARD_PLACE(fans.second_percent)),
@@ -101,7 +103,7 @@ constexpr std::array table{
           [](const Printer& p) { return p.config().board_fan_percent; }),
 
     shown("mixer.packed", integer, "", "mixing ratio as the line packs it: A + 256 B + 65536 C, percents",
-          [](const Printer& p) { return printer::pack(p.mixer.ratio()); }),
+          [](const Printer& p) { return machine::pack(p.mixer.ratio()); }),
     shown("mixer.a", integer, "%", "share of extruder 1", share<0>),
     shown("mixer.b", integer, "%", "share of extruder 2", share<1>),
     shown("mixer.c", integer, "%", "share of extruder 3", share<2>),
@@ -114,9 +116,9 @@ constexpr std::array table{
     shown("mixer.template", integer, "", "template chosen by M2136, 0 none",
           [](const Printer& p) { return p.mixer.template_number(); }),
     shown("mixer.start", integer, "", "ratio at the start of the template, packed",
-          [](const Printer& p) { return printer::pack(p.mixer.start()); }),
+          [](const Printer& p) { return machine::pack(p.mixer.start()); }),
     shown("mixer.end", integer, "", "ratio at the end of the template, packed",
-          [](const Printer& p) { return printer::pack(p.mixer.end()); }),
+          [](const Printer& p) { return machine::pack(p.mixer.end()); }),
     shown("mixer.start_height", number, "mm", "height at which the template starts",
           [](const Printer& p) { return p.mixer.start_height_mm(); }),
     shown("mixer.end_height", number, "mm", "height at which the template ends",
@@ -131,7 +133,7 @@ constexpr std::array table{
     shown("filament.code", integer, "", "FT of L3: 255 detector off, 1 filament, 0 none",
           [](const Printer& p) { return p.filament_code(); }),
     shown("filament.running", boolean, "", "loading, unloading or cleaning is under way",
-          [](const Printer& p) { return p.feeder.mode() != printer::Feeder::Mode::idle; }),
+          [](const Printer& p) { return p.feeder.mode() != machine::Feeder::Mode::idle; }),
 };
 
 }  // namespace

@@ -10,8 +10,8 @@ namespace fauxboard::behaviour::rows {
 namespace {
 
 using enum FieldType;
-using printer::Resin;
-using printer::ResinSetting;
+using machine::Resin;
+using machine::ResinSetting;
 
 /// As shown(), of the resin part.
 template <class F>
@@ -62,7 +62,7 @@ constexpr std::array own{
          "held",
          [](const Printer&, const Resin& r) { return to_string(r.job.phase()); }),
     seen("resin.halted", boolean, "", "no layers are being printed: idle, or paused; D of M4000, third",
-         [](const Printer& p, const Resin&) { return p.job.status() != printer::JobStatus::printing; }),
+         [](const Printer& p, const Resin&) { return p.job.status() != machine::JobStatus::printing; }),
     seen("resin.led", boolean, "", "the LED shines", [](const Printer&, const Resin& r) { return r.led(); }),
     seen("resin.light", integer, "", "light of the layer being exposed as the file says it, 0 to 255",
          [](const Printer&, const Resin& r) { return r.job.light(); }),
@@ -131,7 +131,7 @@ Field network_kind() {
 template <std::size_t I>
 Field setting() {
     static constexpr auto id = static_cast<ResinSetting>(I);
-    const printer::ResinSettingInfo& info = printer::resin_settings()[I];
+    const machine::ResinSettingInfo& info = machine::resin_settings()[I];
     return {info.path,
             info.whole ? integer : number,
             info.unit,
@@ -168,7 +168,7 @@ std::vector<Field> all_rows(std::index_sequence<I...>) {
 
 std::span<const Field> resin_fields() {
     static const std::vector<Field> table =
-        all_rows(std::make_index_sequence<printer::resin_setting_count>{});
+        all_rows(std::make_index_sequence<machine::resin_setting_count>{});
     return table;
 }
 

@@ -8,7 +8,7 @@ namespace fauxboard::behaviour::rows {
 namespace {
 
 using enum FieldType;
-using printer::Transfer;
+using machine::Transfer;
 
 constexpr std::array table{
     shown("transfer.mode", text, "", "what is open: none, upload, download",

@@ -8,8 +8,8 @@
 namespace fauxboard::behaviour {
 namespace {
 
-using printer::Procedure;
-using printer::ProcedureStep;
+using machine::Procedure;
+using machine::ProcedureStep;
 
 constexpr double huge = 1e6;
 constexpr std::array<std::string_view, 4> axis_names{"x", "y", "z", "e"};
@@ -17,13 +17,13 @@ constexpr std::size_t max_card_entries = 4096;
 constexpr std::size_t max_procedure_steps = 60;  // Motion queues at most 64
 
 /// Milliseconds in the file, SimTime in the machine.
-void milliseconds(ObjectReader& reader, std::string_view key, printer::SimTime& out, double min, double max) {
+void milliseconds(ObjectReader& reader, std::string_view key, machine::SimTime& out, double min, double max) {
     double ms = static_cast<double>(out.count()) / 1000;
     reader.number(key, ms, min, max);
-    out = printer::from_seconds(ms / 1000);
+    out = machine::from_seconds(ms / 1000);
 }
 
-void load_plant(const Json& node, const std::string& pointer, Findings& findings, printer::PlantConfig& out) {
+void load_plant(const Json& node, const std::string& pointer, Findings& findings, machine::PlantConfig& out) {
     ObjectReader reader(node, pointer, findings);
     reader.number("heating_k_per_s", out.heating_k_per_s, 0, 100);
     reader.number("exchange_a_per_s", out.exchange_a_per_s, 0, 10);
@@ -38,7 +38,7 @@ void load_plant(const Json& node, const std::string& pointer, Findings& findings
     reader.finish();
 }
 
-void load_pid(const Json& node, const std::string& pointer, Findings& findings, printer::PidConfig& out) {
+void load_pid(const Json& node, const std::string& pointer, Findings& findings, machine::PidConfig& out) {
     ObjectReader reader(node, pointer, findings);
     reader.number("kp", out.kp, 0, huge);
     reader.number("ki", out.ki, 0, huge);
@@ -51,7 +51,7 @@ void load_pid(const Json& node, const std::string& pointer, Findings& findings, 
 }
 
 void load_protection(const Json& node, const std::string& pointer, Findings& findings,
-                     printer::ProtectionConfig& out) {
+                     machine::ProtectionConfig& out) {
     ObjectReader reader(node, pointer, findings);
     reader.number("min_c", out.min_c, -100, 1000);
     reader.number("max_c", out.max_c, 0, 1000);
@@ -65,7 +65,7 @@ void load_protection(const Json& node, const std::string& pointer, Findings& fin
 }
 
 /// A heater must be able to reach its highest target, and to swing over it, without being called too hot.
-void check_too_hot(ObjectReader& reader, Findings& findings, printer::HeaterConfig& out) {
+void check_too_hot(ObjectReader& reader, Findings& findings, machine::HeaterConfig& out) {
     constexpr double swing_k = 15;
     const Json* protection = reader.get("protection");
     if (protection == nullptr || !protection->is_object() || !protection->contains("max_c")) {
@@ -77,7 +77,7 @@ void check_too_hot(ObjectReader& reader, Findings& findings, printer::HeaterConf
 }
 
 void load_heater(const Json& node, const std::string& pointer, Findings& findings,
-                 printer::HeaterConfig& out) {
+                 machine::HeaterConfig& out) {
     ObjectReader reader(node, pointer, findings);
     if (const Json* plant = reader.get("plant")) {
         load_plant(*plant, reader.pointer("plant"), findings, out.plant);
@@ -95,7 +95,7 @@ void load_heater(const Json& node, const std::string& pointer, Findings& finding
 }
 
 void load_input(const Json& node, const std::string& pointer, Findings& findings,
-                printer::SensorlessInputConfig& out) {
+                machine::SensorlessInputConfig& out) {
     ObjectReader reader(node, pointer, findings);
     reader.number("noise_c", out.noise_c, 0, 100);
     reader.integer("counts_per_c", out.counts_per_c, 1, 1000);
@@ -125,7 +125,7 @@ void load_input(const Json& node, const std::string& pointer, Findings& findings
 }
 
 void load_thermal(const Json& node, const std::string& pointer, Findings& findings,
-                  printer::ThermalConfig& out) {
+                  machine::ThermalConfig& out) {
     ObjectReader reader(node, pointer, findings);
     milliseconds(reader, "period_ms", out.period, 10, 10000);
     reader.unsigned_integer("warm_up_measurements", out.warm_up_measurements, 0, 1000);
@@ -163,12 +163,12 @@ void load_axis_letters(ObjectReader& reader, std::string_view key, Findings& fin
 void load_raise(ObjectReader& reader, Findings& findings, ProcedureStep& step) {
     std::string name;
     reader.text("raise", name);
-    if (const auto event = printer::find_event(name)) {
+    if (const auto event = machine::find_event(name)) {
         step.event = *event;
         return;
     }
     std::vector<std::string_view> names;
-    for (const printer::EventInfo& event : printer::events()) {
+    for (const machine::EventInfo& event : machine::events()) {
         names.push_back(event.name);
     }
     findings.add(reader.pointer("raise"), "unknown event \"" + name + '"', std::string(nearest(name, names)));
@@ -239,7 +239,7 @@ ProcedureStep load_step(const Json& node, const std::string& pointer, Findings& 
 }
 
 void load_procedures(const Json& node, const std::string& pointer, Findings& findings,
-                     printer::MotionConfig& out) {
+                     machine::MotionConfig& out) {
     ObjectReader reader(node, pointer, findings);
     if (!node.is_object()) {
         return;
@@ -262,7 +262,7 @@ void load_procedures(const Json& node, const std::string& pointer, Findings& fin
 }
 
 void load_motion(const Json& node, const std::string& pointer, Findings& findings,
-                 printer::MotionConfig& out) {
+                 machine::MotionConfig& out) {
     ObjectReader reader(node, pointer, findings);
     reader.numbers("volume_mm", out.volume_mm, 1, 5000);
     reader.numbers("power_on_position_mm", out.power_on_mm, 0, 5000);
@@ -288,7 +288,7 @@ void load_motion(const Json& node, const std::string& pointer, Findings& finding
 }
 
 void load_filament(const Json& node, const std::string& pointer, Findings& findings,
-                   printer::FilamentConfig& out) {
+                   machine::FilamentConfig& out) {
     ObjectReader reader(node, pointer, findings);
     reader.number("piece_s", out.piece_s, 0.01, 600);
     reader.number("piece_commit_s", out.piece_commit_s, 0, 600);
@@ -299,11 +299,11 @@ void load_filament(const Json& node, const std::string& pointer, Findings& findi
 }
 
 void load_entries(const Json& node, const std::string& pointer, Findings& findings,
-                  std::vector<printer::BuiltInEntry>& out, std::size_t& count);
+                  std::vector<machine::BuiltInEntry>& out, std::size_t& count);
 
 void load_entry(const Json& node, const std::string& pointer, Findings& findings,
-                std::vector<printer::BuiltInEntry>& out, std::size_t& count) {
-    printer::BuiltInEntry entry;
+                std::vector<machine::BuiltInEntry>& out, std::size_t& count) {
+    machine::BuiltInEntry entry;
     ObjectReader reader(node, pointer, findings);
     entry.folder = reader.has("folder");
     reader.wire_text(entry.folder ? "folder" : "file", entry.name, 255);
@@ -328,7 +328,7 @@ void load_entry(const Json& node, const std::string& pointer, Findings& findings
 }
 
 void load_entries(const Json& node, const std::string& pointer, Findings& findings,
-                  std::vector<printer::BuiltInEntry>& out, std::size_t& count) {
+                  std::vector<machine::BuiltInEntry>& out, std::size_t& count) {
     count += node.size();
     if (!node.is_array() || count > max_card_entries) {
         findings.add(pointer, found(node) + "; expected a list of files and folders, at most 4096 in all");
@@ -339,7 +339,7 @@ void load_entries(const Json& node, const std::string& pointer, Findings& findin
     }
 }
 
-void load_card(const Json& node, const std::string& pointer, Findings& findings, printer::CardConfig& out) {
+void load_card(const Json& node, const std::string& pointer, Findings& findings, machine::CardConfig& out) {
     ObjectReader reader(node, pointer, findings);
     reader.boolean("present", out.present);
     reader.unsigned_integer("max_listed", out.max_listed, 1, 1000);
@@ -353,7 +353,7 @@ void load_card(const Json& node, const std::string& pointer, Findings& findings,
     reader.finish();
 }
 
-void load_resin(const Json& node, const std::string& pointer, Findings& findings, printer::ResinConfig& out) {
+void load_resin(const Json& node, const std::string& pointer, Findings& findings, machine::ResinConfig& out) {
     ObjectReader reader(node, pointer, findings);
     reader.number("travel_mm", out.travel_mm, 1, 2000);
     reader.number("power_on_mm", out.power_on_mm, 0, 2000);
@@ -378,7 +378,7 @@ void load_resin(const Json& node, const std::string& pointer, Findings& findings
 }  // namespace
 
 void load_machine(const Json& node, const std::string& pointer, Findings& findings,
-                  printer::MachineConfig& machine) {
+                  machine::MachineConfig& machine) {
     ObjectReader reader(node, pointer, findings);
     if (const Json* part = reader.get("thermal")) {
         load_thermal(*part, reader.pointer("thermal"), findings, machine.thermal);
@@ -412,7 +412,7 @@ void load_machine(const Json& node, const std::string& pointer, Findings& findin
 }
 
 void load_identity(const Json& node, const std::string& pointer, Findings& findings,
-                   printer::Identity& identity) {
+                   machine::Identity& identity) {
     ObjectReader reader(node, pointer, findings);
     reader.wire_text("device_name", identity.device_name, 64);
     reader.wire_text("model", identity.model, 64);

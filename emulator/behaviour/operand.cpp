@@ -132,7 +132,7 @@ Value Operand::evaluate_other(const Scope& scope) const {
         case Kind::argument:
             return Value::of(scope.command->argument);
         case Kind::name:
-            return Value::of(printer::bare_name(scope.command->argument));
+            return Value::of(machine::bare_name(scope.command->argument));
         case Kind::raw_text:
             return Value::of(scope.command->text);
         case Kind::keyed: {

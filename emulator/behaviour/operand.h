@@ -10,17 +10,17 @@
 
 #include "emulator/behaviour/fields.h"
 #include "emulator/behaviour/value.h"
-#include "emulator/printer/printer.h"
+#include "emulator/machine/printer.h"
 #include "protocol/command.h"
 
 namespace fauxboard::behaviour {
 
 /// What an expression of a profile can see while it is evaluated.
 struct Scope {
-    const printer::Printer& printer;
+    const machine::Printer& printer;
     std::span<const double> variables;           ///< the profile's own, one set per board
     const protocol::Command* command = nullptr;  ///< the request; null in events and on the schedule
-    const printer::CardEntry* entry = nullptr;   ///< inside `for_each`
+    const machine::CardEntry* entry = nullptr;   ///< inside `for_each`
     std::size_t index = 0;
 };
 

@@ -12,12 +12,12 @@
 #include "emulator/behaviour/frame_template.h"
 #include "emulator/behaviour/rules.h"
 #include "emulator/behaviour/source.h"
-#include "emulator/printer/machine_config.h"
+#include "emulator/machine/machine_config.h"
 #include "protocol/framing.h"
 
 namespace fauxboard::behaviour {
 
-using printer::SimTime;
+using machine::SimTime;
 
 /// The lines of a control board.
 enum class Channel : std::uint8_t {
@@ -132,8 +132,8 @@ class Profile {
     Schedule schedule;
     std::vector<VariableInfo> variables;
     std::vector<ActionCall> defaults;  ///< put into the machine at every power-on, before the EEPROM
-    std::shared_ptr<const printer::MachineConfig> machine;
-    std::array<std::vector<Rule>, printer::event_count> events;
+    std::shared_ptr<const machine::MachineConfig> machine;
+    std::array<std::vector<Rule>, machine::event_count> events;
 
     /// Rules for a request on the main line and the network, or of the USB host; null when there are none.
     const std::vector<Rule>* rules_for(Channel channel, const protocol::Command& command) const {

@@ -45,7 +45,7 @@ class Loader {
     FrameIndex frame_index_;
     protocol::FrameStyle style_{};  ///< of frames that do not say theirs
     std::shared_ptr<Profile> profile_ = std::make_shared<Profile>();
-    std::shared_ptr<printer::MachineConfig> machine_ = std::make_shared<printer::MachineConfig>();
+    std::shared_ptr<machine::MachineConfig> machine_ = std::make_shared<machine::MachineConfig>();
 };
 
 void Loader::load_head(ObjectReader& root) {
@@ -67,7 +67,7 @@ void Loader::load_head(ObjectReader& root) {
         double ms = static_cast<double>(profile_->tick.count()) / 1000;
         reader.number("tick_ms", ms, 0.1, 10000);
         reader.finish();
-        profile_->tick = printer::from_seconds(ms / 1000);
+        profile_->tick = machine::from_seconds(ms / 1000);
     }
 }
 
@@ -82,7 +82,7 @@ void Loader::load_line(const Json& node, const std::string& pointer) {
     reader.text("peer", profile_->line.peer, 16);
     double unfinished_ms = 0;
     reader.number("unfinished_ms", unfinished_ms, 0, 60'000);
-    profile_->line.unfinished = printer::from_seconds(unfinished_ms / 1000);
+    profile_->line.unfinished = machine::from_seconds(unfinished_ms / 1000);
     reader.finish();
 }
 
@@ -289,8 +289,8 @@ void Loader::load_schedule(const Json& node, const std::string& pointer) {
     double first_ms = 0;
     reader.number("slot_ms", slot_ms, 1, 600'000);
     reader.number("first_slot_ms", first_ms, 0, 600'000);
-    schedule.slot = printer::from_seconds(slot_ms / 1000);
-    schedule.first = printer::from_seconds(first_ms / 1000);
+    schedule.slot = machine::from_seconds(slot_ms / 1000);
+    schedule.first = machine::from_seconds(first_ms / 1000);
     if (const Json* frozen = reader.get("frozen_while")) {
         RuleCompiler compiler(findings_, names_, frame_index_, *machine_);
         schedule.frozen_while = compiler.conditions(*frozen, reader.pointer("frozen_while"));
@@ -335,7 +335,7 @@ void Loader::load_requests(const Json& node, const std::string& pointer, Profile
 void Loader::load_events(const Json& node, const std::string& pointer) {
     RuleCompiler compiler(findings_, names_, frame_index_, *machine_);
     ObjectReader reader(node, pointer, findings_);
-    for (const printer::EventInfo& event : printer::events()) {
+    for (const machine::EventInfo& event : machine::events()) {
         if (const Json* rules = reader.get(event.name)) {
             profile_->events[static_cast<std::size_t>(event.id)] =
                 compiler.rules(*rules, reader.pointer(event.name));

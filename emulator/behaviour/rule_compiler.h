@@ -15,7 +15,7 @@ class RuleCompiler {
   public:
     RuleCompiler(Findings& findings, const Names& names,
                  const std::map<std::string, std::size_t, std::less<>>& frames,
-                 const printer::MachineConfig& machine)
+                 const machine::MachineConfig& machine)
         : findings_(findings), names_(names), frames_(frames), machine_(machine) {}
 
     /// {"motion.homed": true, "S": {"min": 1, "max": 8}}
@@ -49,7 +49,7 @@ class RuleCompiler {
     Findings& findings_;
     const Names& names_;
     const std::map<std::string, std::size_t, std::less<>>& frames_;
-    const printer::MachineConfig& machine_;
+    const machine::MachineConfig& machine_;
 };
 
 }  // namespace fauxboard::behaviour

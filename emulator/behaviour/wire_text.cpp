@@ -1,5 +1,9 @@
 #include "emulator/behaviour/wire_text.h"
 
+#include <fmt/format.h>
+
+#include <iterator>
+
 namespace fauxboard::behaviour {
 
 std::optional<std::string> to_wire(std::string_view utf8) {
@@ -31,6 +35,20 @@ std::string from_wire(std::string_view bytes) {
         }
     }
     return out;
+}
+
+std::string as_ascii(std::string_view bytes) {
+    std::string text;
+    text.reserve(bytes.size());
+    for (const char c : bytes) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte >= 0x20 && byte < 0x7F) {
+            text += c;
+        } else {
+            fmt::format_to(std::back_inserter(text), "\\x{:02X}", byte);
+        }
+    }
+    return text;
 }
 
 }  // namespace fauxboard::behaviour

@@ -13,4 +13,7 @@ std::optional<std::string> to_wire(std::string_view utf8);
 /// The other way: each byte becomes the character of the same number. Never fails.
 std::string from_wire(std::string_view bytes);
 
+/// Bytes for a person: printable ASCII as it is, all else as \xHH.
+std::string as_ascii(std::string_view bytes);
+
 }  // namespace fauxboard::behaviour

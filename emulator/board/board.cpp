@@ -17,7 +17,7 @@ using behaviour::Frame;
 using behaviour::Rule;
 using behaviour::Scope;
 using behaviour::Send;
-using printer::never;
+using machine::never;
 
 constexpr std::size_t outbox_bytes = 12 * 1024;
 constexpr std::size_t outbox_messages = 128;
@@ -38,7 +38,7 @@ bool is_code(std::string_view body) {
 
 }  // namespace
 
-Board::Board(std::shared_ptr<const behaviour::Profile> profile, printer::Services services, Options options)
+Board::Board(std::shared_ptr<const behaviour::Profile> profile, machine::Services services, Options options)
     : profile_(std::move(profile)),
       options_(options),
       machine_(profile_->machine, services, options.seed),
@@ -205,7 +205,7 @@ void Board::execute(Channel channel, std::string_view body) {
         ++counters_.unknown_codes;
         report_unknown(command.word, "is not in the profile");
         if (channel == Channel::host) {
-            machine_.events.raise(printer::EventId::host_unknown);
+            machine_.events.raise(machine::EventId::host_unknown);
         }
     } else if (!run_rules(*rules, &command)) {
         ++counters_.unmatched;

@@ -16,8 +16,8 @@
 #include "emulator/board/network_outbox.h"
 #include "emulator/board/output_buffer.h"
 #include "emulator/board/wheel.h"
-#include "emulator/printer/printer.h"
-#include "emulator/printer/sim_time.h"
+#include "emulator/machine/printer.h"
+#include "emulator/machine/sim_time.h"
 #include "protocol/chitu_chunk.h"
 #include "protocol/framing.h"
 
@@ -25,7 +25,7 @@ namespace fauxboard::board {
 
 using behaviour::Channel;
 using behaviour::Level;
-using printer::SimTime;
+using machine::SimTime;
 
 /// Who speaks on a line, for logs: the other end, and the board's own.
 constexpr std::string_view other_end(Channel channel) {
@@ -51,9 +51,9 @@ class Observer {
     virtual void on_sent(SimTime now, Channel channel, std::string_view line) = 0;
     /// Something a person wants to know: a clamped value, an unknown code, a lost message.
     virtual void on_notice(SimTime now, Level level, std::string_view text) = 0;
-    /// Something happened to the machine (see printer::events()); told before the profile's rules for it are
+    /// Something happened to the machine (see machine::events()); told before the profile's rules for it are
     /// carried out.
-    virtual void on_event(SimTime /*now*/, printer::EventId /*event*/) {}
+    virtual void on_event(SimTime /*now*/, machine::EventId /*event*/) {}
     /// A datagram came from `peer`, or goes to it, whole. Requests and answers in it are told as lines too,
     /// with Channel::network; pieces of files are not.
     virtual void on_datagram(SimTime /*now*/, std::uint64_t /*peer*/, bool /*to_board*/,
@@ -90,7 +90,7 @@ struct Counters {
 /// overdue.
 class Board final : private behaviour::NoticeSink {
   public:
-    Board(std::shared_ptr<const behaviour::Profile> profile, printer::Services services, Options options);
+    Board(std::shared_ptr<const behaviour::Profile> profile, machine::Services services, Options options);
     ~Board() override;
     Board(const Board&) = delete;
     Board& operator=(const Board&) = delete;
@@ -119,7 +119,7 @@ class Board final : private behaviour::NoticeSink {
     /// notice; empty when it was done.
     std::string act(SimTime now, const behaviour::ActionCall& call);
     /// Calls `use` with the machine brought up to now, and sees to what comes of it.
-    void tinker(SimTime now, const std::function<void(printer::Printer& machine)>& use);
+    void tinker(SimTime now, const std::function<void(machine::Printer& machine)>& use);
     /// Sends one of the profile's frames, as a rule does; it has no request to take parameters from.
     void send_frame(SimTime now, const behaviour::Send& entry);
     /// Puts bytes on the wire to the screen, at once and as they are but for the line end, which is added
@@ -153,8 +153,8 @@ class Board final : private behaviour::NoticeSink {
     std::uint64_t lines_too_long() const;
     std::uint64_t nul_bytes() const;
     const behaviour::Profile& profile() const { return *profile_; }
-    printer::Printer& machine() { return machine_; }
-    const printer::Printer& machine() const { return machine_; }
+    machine::Printer& machine() { return machine_; }
+    const machine::Printer& machine() const { return machine_; }
     /// Of the profile's own variables, in its order.
     std::span<const double> variables() const { return variables_; }
 
@@ -177,7 +177,7 @@ class Board final : private behaviour::NoticeSink {
     bool unframe(std::string_view line, std::string_view& body) const;
     void execute(Channel channel, std::string_view body);
     void take_piece(std::uint64_t peer, const protocol::Chunk& chunk);
-    printer::Transfer::Mishap mishap();
+    machine::Transfer::Mishap mishap();
     void put_datagrams(std::span<char> message, bool block);
     void take_request(std::string_view bytes);
     void run_rule(const behaviour::Rule& rule, const behaviour::Scope& scope);
@@ -209,7 +209,7 @@ class Board final : private behaviour::NoticeSink {
 
     std::shared_ptr<const behaviour::Profile> profile_;
     Options options_;
-    printer::Printer machine_;
+    machine::Printer machine_;
     Wheel wheel_;
     std::array<Port, behaviour::channel_count> ports_;
     NetworkOutbox network_;
@@ -223,7 +223,7 @@ class Board final : private behaviour::NoticeSink {
     SimTime time_{0};
     SimTime power_on_{0};
     SimTime last_tick_{0};
-    SimTime unfinished_due_ = printer::never;  ///< when an unfinished line of the main line counts as whole
+    SimTime unfinished_due_ = machine::never;  ///< when an unfinished line of the main line counts as whole
     std::set<std::string, std::less<>> told_;  ///< unknown codes already warned of, bounded
 };
 

@@ -10,7 +10,7 @@
 namespace fauxboard::board {
 namespace {
 
-using printer::EventId;
+using machine::EventId;
 using protocol::HostLineFault;
 
 EventId event_of(HostLineFault fault) {
@@ -42,7 +42,7 @@ bool is_urgent(const behaviour::Profile& profile, std::string_view body) {
 
 void Board::take_host_line(std::string_view line) {
     const protocol::HostLine framed = protocol::unframe_host_line(line);
-    printer::HostCommands& host = machine_.host;
+    machine::HostCommands& host = machine_.host;
     const HostLineFault fault = protocol::judge_host_line(framed, host.last_line);
     const bool blank = framed.body.empty() && !framed.numbered;
     const bool urgent = fault == HostLineFault::none && !blank && is_urgent(*profile_, framed.body);
@@ -82,7 +82,7 @@ void Board::take_host_line(std::string_view line) {
 
 /// Ends the command that is over, begins the next that may begin, and so on.
 void Board::run_host() {
-    printer::HostCommands& host = machine_.host;
+    machine::HostCommands& host = machine_.host;
     while (!machine_.hung() && port(Channel::host).output.size() < output_limit) {
         if (host.running()) {
             if (host.under_way()) {
@@ -101,9 +101,9 @@ void Board::run_host() {
         host_inbox_.pop();  // before it is executed: a reset empties the queue
         host.begin(command, time_);
         if (!host.write(command, time_)) {
-            machine_.transfer.asker = printer::Transfer::usb_side;
+            machine_.transfer.asker = machine::Transfer::usb_side;
             execute(Channel::host, command);
-            machine_.transfer.asker = printer::Transfer::serial_line;
+            machine_.transfer.asker = machine::Transfer::serial_line;
             host.follow_transfer();
         }
         settle();

@@ -7,7 +7,7 @@
 namespace fauxboard::board {
 namespace {
 
-using printer::Transfer;
+using machine::Transfer;
 
 static_assert(Transfer::max_block == protocol::max_chunk_payload);
 
@@ -76,7 +76,7 @@ void Board::take_piece(std::uint64_t peer, const protocol::Chunk& chunk) {
             network_.answer(0);
             notice(Level::debug, "the answer to a piece of a file was lost on its way");
         }
-        run_rules(profile_->events[static_cast<std::size_t>(printer::EventId::transfer_piece)], nullptr);
+        run_rules(profile_->events[static_cast<std::size_t>(machine::EventId::transfer_piece)], nullptr);
     }
 }
 

@@ -83,7 +83,7 @@ void Board::compose_line(const Frame& frame, const behaviour::FrameTemplate& tex
 
 void Board::compose(const Frame& frame, const Scope& here, Draft& draft) {
     if (frame.chunk) {
-        const printer::Transfer& transfer = machine_.transfer;
+        const machine::Transfer& transfer = machine_.transfer;
         const std::string_view block = transfer.last_block.view();
         draft.size = protocol::write_chunk(
             draft.room, static_cast<std::uint32_t>(transfer.position() - block.size()), block);
@@ -97,7 +97,7 @@ void Board::compose(const Frame& frame, const Scope& here, Draft& draft) {
             continue;
         }
         Scope inside = here;
-        for (const printer::CardEntry& entry : machine_.listing()) {
+        for (const machine::CardEntry& entry : machine_.listing()) {
             inside.entry = &entry;
             if (behaviour::all_hold(line.when, inside)) {
                 compose_line(frame, line.text, inside, std::max(draft.size, end - closing_room), draft);

@@ -55,7 +55,7 @@ std::string Board::act(SimTime now, const behaviour::ActionCall& call) {
     return watch.refusal;
 }
 
-void Board::tinker(SimTime now, const std::function<void(printer::Printer& machine)>& use) {
+void Board::tinker(SimTime now, const std::function<void(machine::Printer& machine)>& use) {
     catch_up(now);
     machine_.advance(time_);
     use(machine_);

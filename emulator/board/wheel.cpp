@@ -7,7 +7,7 @@ namespace fauxboard::board {
 
 using behaviour::Scope;
 using behaviour::Slot;
-using printer::never;
+using machine::never;
 
 void Wheel::reload(const behaviour::Profile& profile, SimTime now) {
     profile_ = &profile;
@@ -50,14 +50,14 @@ void Wheel::power_on(SimTime now) {
 }
 
 bool Wheel::changed(const std::vector<std::size_t>& which, std::size_t frame,
-                    const printer::Printer& machine) const {
+                    const machine::Printer& machine) const {
     const auto& fields = profile_->frames[frame].watched;
     return std::any_of(which.begin(), which.end(), [&](std::size_t i) {
         return !(fields[i]->get(machine).number == watched_[watch_from_[frame] + i]);
     });
 }
 
-void Wheel::remember(std::size_t frame, const printer::Printer& machine) {
+void Wheel::remember(std::size_t frame, const machine::Printer& machine) {
     const auto& fields = profile_->frames[frame].watched;
     for (std::size_t i = 0; i < fields.size(); ++i) {
         watched_[watch_from_[frame] + i] = fields[i]->get(machine).number;

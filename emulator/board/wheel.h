@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "emulator/behaviour/profile.h"
-#include "emulator/printer/sim_time.h"
+#include "emulator/machine/sim_time.h"
 
 namespace fauxboard::board {
 
-using printer::SimTime;
+using machine::SimTime;
 
 /// The board's status wheel: slots of fixed length, round after round, each perhaps sending one frame. Keeps
 /// what each slot needs to decide (rounds, values last sent); whoever turns it sends.
@@ -20,7 +20,7 @@ class Wheel {
     /// Stands still until power_on().
     explicit Wheel(const behaviour::Profile& profile) {
         reload(profile, SimTime{0});
-        next_ = printer::never;
+        next_ = machine::never;
     }
 
     /// Another profile's slots and watched values; the wheel's place is kept as far as it fits. A wheel that
@@ -39,7 +39,7 @@ class Wheel {
     const behaviour::Slot* turn(const behaviour::Scope& scope);
 
     /// The frame went out, for whatever reason: its watched values are those of now.
-    void sent(std::size_t frame, const printer::Printer& machine) {
+    void sent(std::size_t frame, const machine::Printer& machine) {
         if (!profile_->frames[frame].watched.empty()) {
             remember(frame, machine);
         }
@@ -61,9 +61,9 @@ class Wheel {
         std::size_t to_frame = no_frame;  ///< slots from here to the first that has a frame: 0 this one
     };
 
-    void remember(std::size_t frame, const printer::Printer& machine);
+    void remember(std::size_t frame, const machine::Printer& machine);
     bool changed(const std::vector<std::size_t>& which, std::size_t frame,
-                 const printer::Printer& machine) const;
+                 const machine::Printer& machine) const;
     bool conditions_hold(std::size_t index, const behaviour::Scope& scope) const;
     bool sent_this_round(std::size_t frame) const;
 
@@ -73,7 +73,7 @@ class Wheel {
     std::vector<double> watched_;
     std::size_t index_ = 0;
     std::uint64_t round_ = 0;
-    SimTime next_ = printer::never;
+    SimTime next_ = machine::never;
     bool frozen_ = false;
 };
 

@@ -25,7 +25,7 @@ std::string_view name(board::Level level) {
 }
 
 Json event(std::string_view topic, SimTime now) {
-    return {{"event", topic}, {"t", printer::to_seconds(now)}};
+    return {{"event", topic}, {"t", machine::to_seconds(now)}};
 }
 
 }  // namespace
@@ -45,7 +45,7 @@ void Hub::tell(Wanted&& wanted, Make&& make) {
 }
 
 SimTime Hub::on_moved(SimTime now) {
-    SimTime next = printer::never;
+    SimTime next = machine::never;
     for (Session* session : sessions_) {
         next = std::min(next, session->on_moved(target_.board(), now));
     }

@@ -16,7 +16,7 @@ class Hub final : public board::Observer {
     explicit Hub(Target& target) : target_(target) {}
 
     /// The board has moved on to `now`, and its machine too (Board::refresh()). Cheap when nothing is due.
-    /// Returns when it next wants to be called, printer::never if not at all. Ask anew after each visit.
+    /// Returns when it next wants to be called, machine::never if not at all. Ask anew after each visit.
     SimTime on_moved(SimTime now);
     /// The tested line's link changed; state as link::LinkState is called, `why` a sentence.
     void on_link(SimTime now, std::string_view state, std::string_view why);

@@ -15,8 +15,8 @@ namespace fauxboard::control::rows {
 namespace {
 
 using enum ParamType;
-using printer::Breakdowns;
-using printer::Printer;
+using machine::Breakdowns;
+using machine::Printer;
 
 fault::FaultControl& faults(const Call& call) {
     fault::FaultControl* all = call.target.faults();
@@ -38,7 +38,7 @@ auto with_spec(const Call& call, F&& use) {
 
 [[noreturn]] void unknown_fault(const Json& id) {
     std::vector<std::string_view> names;
-    for (const printer::BreakdownInfo& info : printer::breakdowns()) {
+    for (const machine::BreakdownInfo& info : machine::breakdowns()) {
         names.push_back(info.name);
     }
     throw ControlError(
@@ -71,7 +71,7 @@ Json add_to_printer(const Call& call, const fault::FaultSpec& spec) {
 bool remove_from_printer(const Call& call, const std::string& id) {
     bool done = false;
     call.board.tinker(call.now, [&](Printer& p) {
-        const printer::BreakdownInfo* info = printer::find_breakdown(id);
+        const machine::BreakdownInfo* info = machine::find_breakdown(id);
         done = info != nullptr ? p.breakdowns.remove(info->id) != 0
                                : p.breakdowns.remove(fault::printer_fault_number(id));
     });
@@ -133,7 +133,7 @@ Answer list(const Call& call) {
         }
     }
     call.board.refresh(call.now);
-    for (const printer::Breakdown& breakdown : call.board.machine().breakdowns.list()) {
+    for (const machine::Breakdown& breakdown : call.board.machine().breakdowns.list()) {
         out.push_back(fault::breakdown_to_json(breakdown));
     }
     return Json{{"faults", std::move(out)}};

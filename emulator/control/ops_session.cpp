@@ -116,7 +116,7 @@ Answer status(const Call& call) {
     const behaviour::Profile& profile = call.board.profile();
     Json out{{"profile", profile.name},
              {"title", profile.title},
-             {"t", printer::to_seconds(call.now)},
+             {"t", machine::to_seconds(call.now)},
              {"clients", call.hub.size()}};
     fault::FaultControl* const faults = call.target.faults();
     out["faults"] =

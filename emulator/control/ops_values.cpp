@@ -22,7 +22,7 @@ Answer get(const Call& call) {
         find_places(call.board, name, places);
     }
     call.board.refresh(call.now);
-    return Json{{"t", printer::to_seconds(call.now)}, {"fields", values_of(call.board, places)}};
+    return Json{{"t", machine::to_seconds(call.now)}, {"fields", values_of(call.board, places)}};
 }
 
 Answer set(const Call& call) {

@@ -166,10 +166,10 @@ void Session::tell(const Json& event) {
 }
 
 SimTime Session::on_moved(const board::Board& board, SimTime now) {
-    SimTime next = printer::never;
+    SimTime next = machine::never;
     if (until_ && *until_ <= now) {
         until_.reset();
-        later_["t"] = printer::to_seconds(now);
+        later_["t"] = machine::to_seconds(now);
         answer(std::exchange(later_, Json{}));
     } else if (until_) {
         next = *until_;
@@ -195,7 +195,7 @@ void Session::sample(const board::Board& board, SimTime now) {
         }
     }
     if (!changed.empty()) {
-        tell({{"event", "state"}, {"t", printer::to_seconds(now)}, {"fields", std::move(changed)}});
+        tell({{"event", "state"}, {"t", machine::to_seconds(now)}, {"fields", std::move(changed)}});
     }
 }
 

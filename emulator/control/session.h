@@ -73,7 +73,7 @@ class Session {
     // For the hub.
     // -------------------------------------------------------------------------------------------
 
-    /// Does what is due. When it next wants to be called, printer::never if not at all.
+    /// Does what is due. When it next wants to be called, machine::never if not at all.
     SimTime on_moved(const board::Board& board, SimTime now);
     /// Something to be told unasked: {"event": ...}.
     void tell(const Json& event);

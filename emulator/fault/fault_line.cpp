@@ -103,7 +103,7 @@ std::vector<FaultStatus> FaultLine::list(SimTime now) const {
     std::vector<FaultStatus> out;
     for (const Fault& fault : faults_) {
         const Judge& judge = fault.judge;
-        const bool dead_yet = fault.dead_from != printer::never && now < fault.dead_until;
+        const bool dead_yet = fault.dead_from != machine::never && now < fault.dead_until;
         out.push_back({fault.id, fault.spec, judge.seen(), judge.acted(), judge.over(now) && !dead_yet, {}});
         out.back().by[static_cast<std::size_t>(direction_)] = {judge.seen(), judge.acted()};
     }

@@ -81,7 +81,7 @@ class FaultLine {
         cutter_.passed(bytes);
         in_line_ = LineCutter::ends_in_line(bytes, in_line_);
     }
-    /// Does what is due up to `now`. Returns when it next wants to be called, printer::never if not at all.
+    /// Does what is due up to `now`. Returns when it next wants to be called, machine::never if not at all.
     SimTime advance(SimTime now);
     /// What has come through, since the last clear_output().
     std::string_view output() const { return output_; }
@@ -97,7 +97,7 @@ class FaultLine {
     std::uint64_t bytes_overflowed() const { return bytes_overflowed_; }
 
   private:
-    static constexpr SimTime latest = printer::never / 4;  ///< so that sums of times stay in range
+    static constexpr SimTime latest = machine::never / 4;  ///< so that sums of times stay in range
 
     struct Fault {
         Fault(FaultId id, const FaultSpec& spec, Direction direction, SimTime now);
@@ -108,7 +108,7 @@ class FaultLine {
         Pace pace;            ///< of that line
         PaceQueue queue;
         Interruption interruption;
-        SimTime dead_from{printer::never};  ///< the latest interruption
+        SimTime dead_from{machine::never};  ///< the latest interruption
         SimTime dead_until{0};
         bool announced = false;  ///< an interruption by time alone that is still to come
     };

@@ -19,8 +19,8 @@ SimTime end_of(const Trigger& trigger, SimTime begin) {
     if (trigger.until) {
         return *trigger.until;
     }
-    return trigger.length && *trigger.length < printer::never - begin ? begin + *trigger.length
-                                                                      : printer::never;
+    return trigger.length && *trigger.length < machine::never - begin ? begin + *trigger.length
+                                                                      : machine::never;
 }
 
 }  // namespace

@@ -116,8 +116,8 @@ Json describe_printer_kinds() {
     }
     for (const Kind* kind : printer_kinds()) {
         Json events = Json::array();
-        for (const printer::EventId id : kind->printer->events) {
-            events.push_back(printer::events()[static_cast<std::size_t>(id)].name);
+        for (const machine::EventId id : kind->printer->events) {
+            events.push_back(machine::events()[static_cast<std::size_t>(id)].name);
         }
         Json row{{"name", kind->name},
                  {"help", kind->help},

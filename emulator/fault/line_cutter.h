@@ -6,11 +6,11 @@
 #include <string_view>
 #include <utility>
 
-#include "emulator/printer/sim_time.h"
+#include "emulator/machine/sim_time.h"
 
 namespace fauxboard::fault {
 
-using printer::SimTime;
+using machine::SimTime;
 
 /// Some bytes of a line, with the time they came.
 struct Piece {
@@ -51,7 +51,7 @@ class LineCutter {
     }
 
     /// When flush() is to be called; never, if nothing is held.
-    SimTime due() const { return held_.empty() ? printer::never : last_ + patience; }
+    SimTime due() const { return held_.empty() ? machine::never : last_ + patience; }
     /// The start of the line at hand has been let go, its end has not come.
     bool in_rest() const { return in_line_ && !first_; }
     std::size_t held() const { return held_.size(); }

@@ -6,7 +6,7 @@ namespace fauxboard::fault {
 namespace {
 
 SimTime travel(std::size_t bytes, double bytes_per_s) {
-    return bytes_per_s > 0 ? printer::from_seconds(static_cast<double>(bytes) / bytes_per_s) : SimTime{0};
+    return bytes_per_s > 0 ? machine::from_seconds(static_cast<double>(bytes) / bytes_per_s) : SimTime{0};
 }
 
 }  // namespace
@@ -23,13 +23,13 @@ std::size_t PaceQueue::portion_end(const Waiting& item) {
     if (item.bytes_per_s <= 0) {
         return size;
     }
-    const auto step = static_cast<std::size_t>(item.bytes_per_s * printer::to_seconds(portion));
+    const auto step = static_cast<std::size_t>(item.bytes_per_s * machine::to_seconds(portion));
     return std::min(size, item.done + std::max<std::size_t>(1, step));
 }
 
 SimTime PaceQueue::due() const {
     if (waiting_.empty()) {
-        return printer::never;
+        return machine::never;
     }
     const Waiting& next = waiting_.front();
     return next.start + travel(portion_end(next), next.bytes_per_s);

@@ -13,9 +13,9 @@
 namespace fauxboard::fault {
 namespace {
 
-using printer::BreakdownInfo;
-using printer::BreakdownParameter;
-using printer::BreakdownUnit;
+using machine::BreakdownInfo;
+using machine::BreakdownParameter;
+using machine::BreakdownUnit;
 
 AttributeType type_of(BreakdownUnit unit) {
     switch (unit) {
@@ -31,14 +31,14 @@ AttributeType type_of(BreakdownUnit unit) {
 
 /// The machine's rows as this room has them.
 struct Rows {
-    static constexpr std::size_t count = printer::breakdown_count;
+    static constexpr std::size_t count = machine::breakdown_count;
     std::array<std::array<Attribute, 2>, count> attributes{};
     std::array<Kind, count> kinds{};
     std::array<const Kind*, count> pointers{};
 
     Rows() {
         for (std::size_t i = 0; i < count; ++i) {
-            const BreakdownInfo& info = printer::breakdowns()[i];
+            const BreakdownInfo& info = machine::breakdowns()[i];
             for (std::size_t k = 0; k < info.parameters.size(); ++k) {
                 const BreakdownParameter& p = info.parameters[k];
                 attributes[i][k] = {p.name, type_of(p.unit), p.fallback, p.min, p.max, p.help, p.choices};
@@ -53,9 +53,9 @@ struct Rows {
     Rows(const Rows&) = delete;
     Rows& operator=(const Rows&) = delete;
 };
-static_assert(printer::BreakdownValues{}.size() == 2 && Values::most >= 2, "all values have their place");
+static_assert(machine::BreakdownValues{}.size() == 2 && Values::most >= 2, "all values have their place");
 
-FaultSpec to_spec(const printer::BreakdownRequest& request) {
+FaultSpec to_spec(const machine::BreakdownRequest& request) {
     FaultSpec spec;
     spec.kind = find_kind(request.info->name);
     for (std::size_t i = 0; i < request.values.size(); ++i) {
@@ -78,8 +78,8 @@ bool is_for_printer(const FaultSpec& spec) {
     return spec.kind->printer != nullptr;
 }
 
-printer::BreakdownRequest to_request(const FaultSpec& spec) {
-    printer::BreakdownRequest request;
+machine::BreakdownRequest to_request(const FaultSpec& spec) {
+    machine::BreakdownRequest request;
     request.info = spec.kind->printer;
     for (std::size_t i = 0; i < request.values.size(); ++i) {
         request.values[i] = spec.values.number(i);
@@ -90,17 +90,17 @@ printer::BreakdownRequest to_request(const FaultSpec& spec) {
     return request;
 }
 
-Json breakdown_to_json(const printer::Breakdown& breakdown) {
+Json breakdown_to_json(const machine::Breakdown& breakdown) {
     return {{"id", printer_fault_id(breakdown.number)},
             {"fault", fault_to_json(to_spec(breakdown.request))},
-            {"state", printer::state_name(breakdown.state)},
-            {"begin", printer::to_seconds(breakdown.begin)},
-            {"over", breakdown.state == printer::BreakdownState::over}};
+            {"state", machine::state_name(breakdown.state)},
+            {"begin", machine::to_seconds(breakdown.begin)},
+            {"over", breakdown.state == machine::BreakdownState::over}};
 }
 
-std::string breakdown_sentence(const printer::Breakdown& breakdown) {
-    const std::string_view state = breakdown.state == printer::BreakdownState::waiting  ? "has not begun"
-                                   : breakdown.state == printer::BreakdownState::active ? "is in force"
+std::string breakdown_sentence(const machine::Breakdown& breakdown) {
+    const std::string_view state = breakdown.state == machine::BreakdownState::waiting  ? "has not begun"
+                                   : breakdown.state == machine::BreakdownState::active ? "is in force"
                                                                                         : "is over";
     return fmt::format("Printer fault {}, {}, {}.", printer_fault_id(breakdown.number),
                        fault_to_text(to_spec(breakdown.request)), state);

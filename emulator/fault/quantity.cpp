@@ -39,7 +39,7 @@ std::optional<double> parse_quantity(std::string_view text, std::span<const Unit
     return std::nullopt;
 }
 
-std::string time_text(printer::SimTime time) {
+std::string time_text(machine::SimTime time) {
     const auto us = time.count();
     if (us % 1'000'000 == 0) {
         return std::to_string(us / 1'000'000) + "s";

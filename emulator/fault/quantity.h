@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "emulator/printer/sim_time.h"
+#include "emulator/machine/sim_time.h"
 
 namespace fauxboard::fault {
 
@@ -27,6 +27,6 @@ std::span<const Unit> rate_units();
 std::optional<double> parse_quantity(std::string_view text, std::span<const Unit> units);
 
 /// "1500ms": in the largest unit up to seconds that needs no fraction.
-std::string time_text(printer::SimTime time);
+std::string time_text(machine::SimTime time);
 
 }  // namespace fauxboard::fault

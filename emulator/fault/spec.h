@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "emulator/behaviour/source.h"
-#include "emulator/printer/sim_time.h"
+#include "emulator/machine/sim_time.h"
 
 namespace fauxboard::fault {
 
 using behaviour::Json;
-using printer::SimTime;
+using machine::SimTime;
 
 struct Kind;
 

@@ -10,7 +10,7 @@
 
 namespace fauxboard::host {
 
-using printer::never;
+using machine::never;
 
 Alarm::Alarm(Clock& clock, std::function<void()> on_ring)
     : clock_(clock), on_ring_(std::make_shared<const std::function<void()>>(std::move(on_ring))) {

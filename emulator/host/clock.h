@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "emulator/host/time_text.h"
-#include "emulator/printer/sim_time.h"
+#include "emulator/machine/sim_time.h"
 
 namespace fauxboard::link {
 class EventLoop;
@@ -14,7 +14,7 @@ class EventLoop;
 
 namespace fauxboard::host {
 
-using printer::SimTime;
+using machine::SimTime;
 
 class Clock;
 
@@ -28,7 +28,7 @@ class Alarm {
     Alarm& operator=(const Alarm&) = delete;
 
     /// Asks for one call of on_ring at `when` (on the loop's next turn if that is past); replaces what was
-    /// asked before. `printer::never` asks for none.
+    /// asked before. `machine::never` asks for none.
     void at(SimTime when);
 
   private:
@@ -36,7 +36,7 @@ class Alarm {
 
     Clock& clock_;
     std::shared_ptr<const std::function<void()>> on_ring_;
-    SimTime when_ = printer::never;
+    SimTime when_ = machine::never;
     std::uint64_t round_ = 0;  ///< of ringing, in which it rang last
 };
 
@@ -53,7 +53,7 @@ class Clock {
     /// Virtual time goes on from 0 now; it is 0 until then. Alarms may be set before.
     virtual void start() = 0;
     /// Never goes back.
-    SimTime now() const { return skipping_at_ != printer::never ? skipping_at_ : time(); }
+    SimTime now() const { return skipping_at_ != machine::never ? skipping_at_ : time(); }
     /// Not set yet. It rings from run() and skip() only.
     std::unique_ptr<Alarm> make_alarm(std::function<void()> on_ring) {
         return std::make_unique<Alarm>(*this, std::move(on_ring));
@@ -85,7 +85,7 @@ class Clock {
     std::vector<Alarm*> alarms_;  ///< few: a board, its faults, a script
     std::uint64_t round_ = 0;
     bool ringing_ = false;
-    SimTime skipping_at_ = printer::never;
+    SimTime skipping_at_ = machine::never;
 };
 
 /// Real time, scaled; or, at Speed::max, time that jumps from one alarm to the next and looks at the event

@@ -13,7 +13,7 @@
 #include <system_error>
 #include <utility>
 
-#include "emulator/host/host_error.h"
+#include "emulator/link/host_error.h"
 #include "emulator/link/unique_fd.h"
 
 namespace fauxboard::host {
@@ -103,15 +103,15 @@ EepromFile::EepromFile(std::string file, OnTrouble on_trouble)
     folder_ = fs::path(file_).parent_path().string();
     const fs::file_status status = fs::status(file_, error);
     if (fs::exists(status) && !fs::is_regular_file(status)) {
-        throw HostError(fmt::format("{} cannot hold the EEPROM: it is no plain file.", file_));
+        throw link::HostError(fmt::format("{} cannot hold the EEPROM: it is no plain file.", file_));
     }
     if (UniqueFd(::open(file_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)).get() < 0 && errno != ENOENT) {
-        throw HostError(fmt::format("The EEPROM {} cannot be read ({}).", file_, error_text(errno)));
+        throw link::HostError(fmt::format("The EEPROM {} cannot be read ({}).", file_, error_text(errno)));
     }
     sweep();
     std::string name;
     if (const int failure = write_new(name, {}); failure != 0) {
-        throw HostError(
+        throw link::HostError(
             fmt::format("The EEPROM {} cannot be written ({}): its folder must exist and be "
                         "writable.",
                         file_, error_text(failure)));

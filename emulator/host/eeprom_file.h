@@ -3,20 +3,20 @@
 #include <functional>
 #include <string>
 
-#include "emulator/printer/printer.h"
+#include "emulator/machine/printer.h"
 
 namespace fauxboard::host {
 
 /// The board's EEPROM in a text file: a line with the version, the image, a line with its checksum. A kill or
 /// a power cut at any moment leaves the old file or the new one whole.
-class EepromFile final : public printer::EepromStore {
+class EepromFile final : public machine::EepromStore {
   public:
     static constexpr std::size_t max_bytes = 1024UL * 1024;
 
     /// Told what a person must know: the file was broken and is now called so; it could not be written.
     using OnTrouble = std::function<void(std::string_view sentence)>;
 
-    /// `file` need not exist: a fresh EEPROM. Throws HostError when it could not be written or read.
+    /// `file` need not exist: a fresh EEPROM. Throws link::HostError when it could not be written or read.
     EepromFile(std::string file, OnTrouble on_trouble);
 
     /// A file that is torn or was edited is renamed to FILE.broken (.broken.2, ...), so that nothing is lost,

@@ -88,7 +88,7 @@ void FaultyLink::open(link::LinkListener& listener) {
 
 void FaultyLink::close() {
     listener_ = nullptr;
-    alarm_->at(printer::never);
+    alarm_->at(machine::never);
     news_.clear();
     complained_ = false;
     incoming().clear_output();

@@ -15,13 +15,13 @@
 #include <tuple>
 #include <utility>
 
-#include "emulator/host/host_error.h"
+#include "emulator/link/host_error.h"
 
 namespace fauxboard::host {
 namespace {
 
 using link::UniqueFd;
-using printer::CardEntry;
+using machine::CardEntry;
 
 constexpr int folder_flags = O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_NONBLOCK;
 /// Names read from one folder before it is called endless.
@@ -41,8 +41,8 @@ bool usable_name(std::string_view name) {
 
 /// The kind and size of `name` in the open folder, itself and not what it points to; missing for all that is
 /// neither file nor folder.
-printer::Volume::Kind look_at(int folder, const std::string& name, std::uint64_t& bytes) {
-    using Kind = printer::Volume::Kind;
+machine::Volume::Kind look_at(int folder, const std::string& name, std::uint64_t& bytes) {
+    using Kind = machine::Volume::Kind;
     struct stat info {};
     if (::fstatat(folder, name.c_str(), &info, AT_SYMLINK_NOFOLLOW) != 0) {
         return Kind::missing;
@@ -57,8 +57,8 @@ printer::Volume::Kind look_at(int folder, const std::string& name, std::uint64_t
     return ::faccessat(folder, name.c_str(), R_OK, AT_EACCESS) == 0 ? Kind::file : Kind::unreadable;
 }
 
-bool is_file(printer::Volume::Kind kind) {
-    return kind == printer::Volume::Kind::file || kind == printer::Volume::Kind::unreadable;
+bool is_file(machine::Volume::Kind kind) {
+    return kind == machine::Volume::Kind::file || kind == machine::Volume::Kind::unreadable;
 }
 
 std::vector<std::string> read_names(DIR* folder) {
@@ -77,8 +77,8 @@ std::vector<std::string> read_names(DIR* folder) {
 
 FolderCard::FolderCard(std::string folder, std::string_view what) : root_(std::move(folder)) {
     if (!open_root()) {
-        throw HostError(fmt::format("{} cannot be {} ({}). Name a folder that you may read.", root_, what,
-                                    std::system_category().message(errno)));
+        throw link::HostError(fmt::format("{} cannot be {} ({}). Name a folder that you may read.", root_,
+                                          what, std::system_category().message(errno)));
     }
     // The program may change its current folder; the card stays where it is.
     std::error_code error;
@@ -141,7 +141,7 @@ UniqueFd FolderCard::open_parent(std::string_view path, std::string& name) const
                : UniqueFd{};
 }
 
-printer::Volume::Kind FolderCard::look(std::string_view path, std::uint64_t& bytes) const {
+machine::Volume::Kind FolderCard::look(std::string_view path, std::uint64_t& bytes) const {
     bytes = 0;
     if (path.empty()) {
         return open_root() ? Kind::folder : Kind::missing;

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "emulator/link/unique_fd.h"
-#include "emulator/printer/storage.h"
+#include "emulator/machine/storage.h"
 
 namespace fauxboard::host {
 
@@ -11,16 +11,16 @@ namespace fauxboard::host {
 /// never leaves the folder: symlinks, devices and pipes are not there. It is looked at anew each time, so it
 /// may change, or vanish (an empty card) and come back. Names are bytes, whatever their encoding; names with
 /// control characters are left out, since they would break the line.
-class FolderCard final : public printer::Volume {
+class FolderCard final : public machine::Volume {
   public:
     static constexpr std::size_t max_entries =
         4096;  ///< of one folder: the first by name; the rest is left out
 
-    /// Throws HostError, which calls it `what`, when `folder` is not a readable folder now.
+    /// Throws link::HostError, which calls it `what`, when `folder` is not a readable folder now.
     explicit FolderCard(std::string folder, std::string_view what = "the SD card");
 
     /// Files first, then folders, each by name (byte order).
-    bool list(std::string_view folder, std::vector<printer::CardEntry>& out) const override;
+    bool list(std::string_view folder, std::vector<machine::CardEntry>& out) const override;
     /// A file that this user may not read is `unreadable`.
     Kind look(std::string_view path, std::uint64_t& bytes) const override;
     /// Looks the file up anew each time, so one that vanished, or became something else, is nothing.

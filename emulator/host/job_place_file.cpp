@@ -13,12 +13,12 @@
 #include <type_traits>
 #include <utility>
 
-#include "emulator/host/host_error.h"
+#include "emulator/link/host_error.h"
 
 namespace fauxboard::host {
 namespace {
 
-using printer::JobPlace;
+using machine::JobPlace;
 
 constexpr std::uint64_t mark = 0x3145434C50424A46;  // "FJBPLCE1" in little endian, near enough
 constexpr std::size_t longest_path = 512;
@@ -113,7 +113,7 @@ std::optional<JobPlace> place_of(std::string_view payload) {
     }
     JobPlace place;
     place.path = payload.substr(sizeof v);
-    place.elapsed = printer::SimTime{v.elapsed_us};
+    place.elapsed = machine::SimTime{v.elapsed_us};
     each_value(place, v, [](auto& to, const auto& from) {
         if constexpr (is_flag<decltype(to)>) {
             to = from != 0;
@@ -132,13 +132,14 @@ JobPlaceFile::JobPlaceFile(std::string file, OnTrouble on_trouble)
       fd_(::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NONBLOCK | O_NOCTTY, 0644)) {
     struct stat what {};
     if (!fd_ || ::fstat(fd_.get(), &what) != 0) {
-        throw HostError(
+        throw link::HostError(
             fmt::format("{}, where the place of a print is kept, cannot be written ({}): its folder "
                         "must exist and be writable.",
                         file_, std::system_category().message(errno)));
     }
     if (!S_ISREG(what.st_mode)) {
-        throw HostError(fmt::format("{} cannot hold the place of a print: it is no plain file.", file_));
+        throw link::HostError(
+            fmt::format("{} cannot hold the place of a print: it is no plain file.", file_));
     }
 }
 

@@ -5,23 +5,24 @@
 #include <string>
 #include <string_view>
 
+#include "emulator/filament/job_place.h"
 #include "emulator/link/unique_fd.h"
-#include "emulator/printer/job_place.h"
 
 namespace fauxboard::host {
 
 /// Keeps the place of a job in a small file of two slots, written in turn: whenever the program is killed,
 /// the slot not being written is whole. A keep() is one write() of some 300 bytes into the page cache, so a
 /// kill of the program loses nothing; what a power cut of this computer leaves is up to its file system.
-class JobPlaceFile final : public printer::JobPlaceStore {
+class JobPlaceFile final : public machine::JobPlaceStore {
   public:
     using OnTrouble = std::function<void(std::string_view sentence)>;
 
-    /// `file` need not exist. Throws HostError when it cannot be opened for writing, or is no plain file.
+    /// `file` need not exist. Throws link::HostError when it cannot be opened for writing, or is no plain
+    /// file.
     JobPlaceFile(std::string file, OnTrouble on_trouble);
 
-    std::optional<printer::JobPlace> load() override;
-    void keep(const printer::JobPlace& place) override;
+    std::optional<machine::JobPlace> load() override;
+    void keep(const machine::JobPlace& place) override;
     void drop() override;
 
     const std::string& file() const { return file_; }

@@ -36,7 +36,7 @@ std::string_view refusal(board::Verdict verdict) {
 }  // namespace
 
 void JsonLog::write(SimTime now, std::string_view members) {
-    const double t = printer::to_seconds(now);
+    const double t = machine::to_seconds(now);
     const std::uint64_t left_out = out_.left_out();
     if (left_out != told_left_out_ &&
         out_.write(fmt::format("{{\"t\": {:.6f}, \"left_out\": {}}}\n", t, left_out - told_left_out_))) {

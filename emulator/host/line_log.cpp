@@ -1,5 +1,7 @@
 #include "emulator/host/line_log.h"
 
+#include "emulator/behaviour/wire_text.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -37,20 +39,6 @@ std::string_view words_of(board::Verdict verdict) {
 
 }  // namespace
 
-std::string printable(std::string_view bytes) {
-    std::string text;
-    text.reserve(bytes.size());
-    for (const char c : bytes) {
-        const auto byte = static_cast<unsigned char>(c);
-        if (byte >= 0x20 && byte < 0x7F) {
-            text += c;
-        } else {
-            fmt::format_to(std::back_inserter(text), "\\x{:02X}", byte);
-        }
-    }
-    return text;
-}
-
 LineLog::LineLog(TextOutput& out, Detail detail, double lines_per_second)
     : out_(out),
       detail_(detail),
@@ -63,7 +51,7 @@ bool LineLog::passes(SimTime now) {
     if (rate_ <= 0) {
         return true;
     }
-    tokens_ = std::min(burst_, tokens_ + printer::to_seconds(now - refilled_) * rate_);
+    tokens_ = std::min(burst_, tokens_ + machine::to_seconds(now - refilled_) * rate_);
     refilled_ = now;
     if (tokens_ < 1 || (held_back_ != 0 && tokens_ < burst_ / 4)) {
         ++held_back_;
@@ -87,7 +75,7 @@ void LineLog::print(SimTime now, std::string_view colour, std::string_view head,
                     std::string_view words) {
     text_.clear();
     const auto out = std::back_inserter(text_);
-    fmt::format_to(out, "{:10.3f}  {}{:<14}{}  ", printer::to_seconds(now), colours_ ? colour : "", head,
+    fmt::format_to(out, "{:10.3f}  {}{:<14}{}  ", machine::to_seconds(now), colours_ ? colour : "", head,
                    colours_ ? plain : "");
     if (words.empty()) {
         fmt::format_to(out, "{}\n", text);
@@ -110,13 +98,13 @@ void LineLog::on_received(SimTime now, board::Channel channel, std::string_view 
     std::string words = words_of(line, protocol::Direction::to_board);
     words += words_of(verdict);
     print(now, verdict == board::Verdict::accepted ? cyan : red,
-          fmt::format("{} → board", other_end(channel)), printable(line), words);
+          fmt::format("{} → board", other_end(channel)), behaviour::as_ascii(line), words);
 }
 
 void LineLog::on_sent(SimTime now, board::Channel channel, std::string_view line) {
     if (detail_ != Detail::quiet && passes(now)) {
         const bool screen = channel == board::Channel::main;
-        print(now, green, fmt::format("board → {}", other_end(channel)), printable(line),
+        print(now, green, fmt::format("board → {}", other_end(channel)), behaviour::as_ascii(line),
               screen ? words_of(line, protocol::Direction::to_screen) : std::string());
     }
 }

@@ -55,7 +55,4 @@ class LineLog final : public LiveObserver {
     std::string text_;
 };
 
-/// Bytes for a person: printable ASCII as it is, all else as \xHH.
-std::string printable(std::string_view bytes);
-
 }  // namespace fauxboard::host

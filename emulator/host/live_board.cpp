@@ -63,7 +63,7 @@ void LiveBoard::catch_up(SimTime now) {
 void LiveBoard::settle(SimTime now) {
     if (now >= end_ && due_ > now) {
         running_ = false;
-        alarm_->at(printer::never);
+        alarm_->at(machine::never);
         std::exchange(on_end_, {})();
         return;
     }

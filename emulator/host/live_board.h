@@ -21,7 +21,7 @@ class LiveBoard final : public link::LinkListener {
     LiveBoard(board::Board& board, link::Link& link, Clock& clock, LiveObserver* observer);
 
     /// Switches the board on and starts the clock; the link is open. After `duration` of virtual time
-    /// `on_end` is called, once; `printer::never` for no end.
+    /// `on_end` is called, once; `machine::never` for no end.
     void start(SimTime duration, std::function<void()> on_end);
     /// Puts a changed profile in force.
     void reload(std::shared_ptr<const behaviour::Profile> profile);
@@ -84,7 +84,7 @@ class LiveBoard final : public link::LinkListener {
     std::function<void(std::uint64_t, std::string_view)> datagram_sender_;
     SimTime end_{0};
     SimTime due_{0};                    ///< what the board's last advance() returned
-    SimTime show_due_{printer::never};  ///< what the follower last returned
+    SimTime show_due_{machine::never};  ///< what the follower last returned
     bool running_ = false;
 };
 

@@ -35,7 +35,7 @@ class Observers final : public LiveObserver {
         for (LiveObserver* each : all_)
             each->on_notice(now, level, text);
     }
-    void on_event(SimTime now, printer::EventId event) override {
+    void on_event(SimTime now, machine::EventId event) override {
         for (LiveObserver* each : all_)
             each->on_event(now, event);
     }

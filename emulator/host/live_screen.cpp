@@ -124,7 +124,7 @@ void LiveScreen::turn() {
     if (!inbox_.empty()) {
         due = std::min(due, window_end_);
     }
-    alarm_->at(due == printer::never ? due : std::max(SimTime{0}, line_time(due)));
+    alarm_->at(due == machine::never ? due : std::max(SimTime{0}, line_time(due)));
 }
 
 void LiveScreen::on_bytes(std::string_view bytes) {

@@ -18,7 +18,7 @@ class ScreenUser {
   public:
     virtual ~ScreenUser() = default;
     /// All that was due has been done. Returns when it wants to be called again at the latest (time of the
-    /// screen; printer::never: only if something happens). May touch the screen.
+    /// screen; machine::never: only if something happens). May touch the screen.
     virtual SimTime on_turn(SimTime now) = 0;
     /// The screen has taken a line.
     virtual void on_judged(const screen::Judgement& judgement) = 0;

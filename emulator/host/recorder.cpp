@@ -8,8 +8,8 @@
 #include <system_error>
 #include <utility>
 
-#include "emulator/host/host_error.h"
-#include "emulator/host/recording.h"
+#include "emulator/link/host_error.h"
+#include "emulator/record/recording.h"
 
 namespace fauxboard::host {
 namespace {
@@ -23,7 +23,7 @@ Recorder::Recorder(std::string file, OnTrouble on_trouble)
       on_trouble_(std::move(on_trouble)),
       fd_(::open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOCTTY, 0666)) {
     if (!fd_) {
-        throw HostError(
+        throw link::HostError(
             fmt::format("The recording {} cannot be written ({}). Name a file in a folder of "
                         "yours.",
                         file_, std::system_category().message(errno)));
@@ -33,25 +33,26 @@ Recorder::Recorder(std::string file, OnTrouble on_trouble)
 void Recorder::on_received(SimTime now, board::Channel channel, std::string_view line, board::Verdict) {
     // What came as a datagram is kept as one.
     if (channel != board::Channel::network) {
-        write(now, recording_line(now, board::other_end(channel), "line", line));
+        write(now, record::recording_line(now, board::other_end(channel), "line", line));
     }
 }
 
 void Recorder::on_sent(SimTime now, board::Channel channel, std::string_view line) {
     if (channel != board::Channel::network) {
-        write(now, recording_line(now, board::own_end(channel), "line", line));
+        write(now, record::recording_line(now, board::own_end(channel), "line", line));
     }
 }
 
 void Recorder::on_world(SimTime now, std::string_view words) {
-    write(now, recording_line(now, from_name(RecordedLine::From::world), "do", words));
+    write(now, record::recording_line(now, from_name(record::RecordedLine::From::world), "do", words));
 }
 
 void Recorder::on_datagram(SimTime now, std::uint64_t peer, bool to_board, std::string_view bytes) {
-    using From = RecordedLine::From;
+    using From = record::RecordedLine::From;
     // Longer ones are neither pieces of files nor requests, and would not fit into a line of a recording.
     const std::string_view kept = bytes.substr(0, max_datagram);
-    write(now, recording_line({now, to_board ? From::network : From::module, std::string(kept), peer}));
+    write(now,
+          record::recording_line({now, to_board ? From::network : From::module, std::string(kept), peer}));
 }
 
 void Recorder::write(SimTime now, const std::string& text) {

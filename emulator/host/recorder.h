@@ -16,7 +16,7 @@ class Recorder final : public LiveObserver {
     /// Told once, when the recording had to end early: a full disk ends the recording, not the board.
     using OnTrouble = std::function<void(SimTime now, std::string_view sentence)>;
 
-    /// Creates or empties `file`. Throws HostError.
+    /// Creates or empties `file`. Throws link::HostError.
     explicit Recorder(std::string file, OnTrouble on_trouble);
 
     void on_received(SimTime now, board::Channel channel, std::string_view line,

@@ -19,7 +19,7 @@ class ScreenPlug::End final : public link::Link {
     void close() override {
         if (std::exchange(listener_, nullptr) != nullptr) {
             inbox_.clear();
-            alarm_->at(printer::never);
+            alarm_->at(machine::never);
             tell_both("the virtual screen is unplugged");
         }
     }

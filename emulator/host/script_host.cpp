@@ -40,7 +40,7 @@ void ScriptHost::wake() {
 void ScriptHost::interrupt(std::string_view why) {
     if (running_) {
         running_ = false;
-        alarm_->at(printer::never);
+        alarm_->at(machine::never);
         player_.interrupt(parts_.clock.now(), why);
     }
 }
@@ -56,7 +56,7 @@ void ScriptHost::on_sent(SimTime now, board::Channel channel, std::string_view l
     wake();
 }
 
-void ScriptHost::on_event(SimTime now, printer::EventId event) {
+void ScriptHost::on_event(SimTime now, machine::EventId event) {
     player_.on_event(now, event);
     wake();
 }

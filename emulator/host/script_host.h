@@ -39,7 +39,7 @@ class ScriptHost final : public LiveObserver, private script::Stage {
                      board::Verdict verdict) override;
     void on_sent(SimTime now, board::Channel channel, std::string_view line) override;
     void on_notice(SimTime, board::Level, std::string_view) override {}
-    void on_event(SimTime now, printer::EventId event) override;
+    void on_event(SimTime now, machine::EventId event) override;
     void on_link(SimTime, link::LinkState, std::string_view) override {}
 
   private:

@@ -5,7 +5,7 @@
 
 namespace fauxboard::host {
 
-using printer::SimTime;
+using machine::SimTime;
 
 std::size_t TapDelay::bucket(std::uint64_t us) {
     if (us < 64) {

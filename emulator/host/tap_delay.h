@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "emulator/printer/sim_time.h"
+#include "emulator/machine/sim_time.h"
 
 namespace fauxboard::host {
 
@@ -12,14 +12,14 @@ namespace fauxboard::host {
 /// were.
 class TapDelay {
   public:
-    void add(printer::SimTime delay);
+    void add(machine::SimTime delay);
 
     std::uint64_t count() const { return count_; }
     /// All are 0 where nothing was added.
-    printer::SimTime min() const { return min_; }
-    printer::SimTime max() const { return max_; }
+    machine::SimTime min() const { return min_; }
+    machine::SimTime max() const { return max_; }
     /// Exact below 64 us, at most 1/32 too small above.
-    printer::SimTime median() const;
+    machine::SimTime median() const;
 
   private:
     // 64 buckets of 1 us, then 32 to each doubling; the last takes all beyond some 50 days.
@@ -30,8 +30,8 @@ class TapDelay {
 
     std::array<std::uint64_t, buckets> counts_{};
     std::uint64_t count_ = 0;
-    printer::SimTime min_{0};
-    printer::SimTime max_{0};
+    machine::SimTime min_{0};
+    machine::SimTime max_{0};
 };
 
 }  // namespace fauxboard::host

@@ -4,8 +4,9 @@
 
 #include <string>
 
+#include "emulator/behaviour/wire_text.h"
 #include "emulator/host/line_log.h"
-#include "emulator/host/transcript.h"
+#include "emulator/record/transcript.h"
 #include "protocol/annotate.h"
 
 namespace fauxboard::host {
@@ -19,14 +20,14 @@ constexpr std::string_view plain = "\x1b[0m";
 constexpr int words_column = 36;  // most lines are shorter
 
 std::string words_of(std::string_view line, protocol::Direction direction) {
-    return protocol::explain(protocol::decode_line(without_nuls(line), direction));
+    return protocol::explain(protocol::decode_line(record::without_nuls(line), direction));
 }
 
 }  // namespace
 
 void TapLog::print(SimTime now, std::string_view colour, std::string_view head, std::string_view text,
                    std::string_view words) {
-    std::string line = fmt::format("{:13.6f}  {}{:<14}{}  ", printer::to_seconds(now), colours_ ? colour : "",
+    std::string line = fmt::format("{:13.6f}  {}{:<14}{}  ", machine::to_seconds(now), colours_ ? colour : "",
                                    head, colours_ ? plain : "");
     if (words.empty()) {
         line += text;
@@ -40,14 +41,14 @@ void TapLog::print(SimTime now, std::string_view colour, std::string_view head, 
 
 void TapLog::on_received(SimTime now, board::Channel, std::string_view line, board::Verdict) {
     if (options_.lines) {
-        print(now, cyan, "screen → board", printable(line),
+        print(now, cyan, "screen → board", behaviour::as_ascii(line),
               options_.words ? words_of(line, protocol::Direction::to_board) : std::string());
     }
 }
 
 void TapLog::on_sent(SimTime now, board::Channel, std::string_view line) {
     if (options_.lines) {
-        print(now, green, "board → screen", printable(line),
+        print(now, green, "board → screen", behaviour::as_ascii(line),
               options_.words ? words_of(line, protocol::Direction::to_screen) : std::string());
     }
 }

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "emulator/host/transcript.h"
+#include "emulator/record/transcript.h"
 
 namespace fauxboard::host {
 namespace {
@@ -16,7 +16,7 @@ constexpr char letter(TapSide side) {
 
 }  // namespace
 
-TapTalk::TapTalk(LiveObserver& lines, PcapngWriter* packets, std::optional<TapSide> board)
+TapTalk::TapTalk(LiveObserver& lines, record::PcapngWriter* packets, std::optional<TapSide> board)
     : lines_(lines), packets_(packets), board_(board) {}
 
 void TapTalk::on_passed(SimTime now, TapSide from, std::string_view bytes) {
@@ -43,7 +43,7 @@ void TapTalk::line(SimTime now, TapSide from, std::string_view piece) {
     ++of(from).lines;
     put(now, from, false, piece);
     if (!board_) {
-        if (const auto direction = telling_direction(piece)) {
+        if (const auto direction = record::telling_direction(piece)) {
             decide(*direction == protocol::Direction::to_screen ? from : other(from));
         }
     }
@@ -84,7 +84,7 @@ void TapTalk::on_link(SimTime now, TapSide side, link::LinkState state, std::str
 }
 
 SimTime TapTalk::due() const {
-    SimTime due = printer::never;
+    SimTime due = machine::never;
     for (const Side& side : sides_) {
         if (!side.packet.empty()) {
             due = std::min(due, side.heard + packet_pause);

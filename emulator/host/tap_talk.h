@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "emulator/host/live_observer.h"
-#include "emulator/host/pcapng.h"
 #include "emulator/host/tap.h"
 #include "emulator/host/tap_cutter.h"
+#include "emulator/record/pcapng.h"
 
 namespace fauxboard::host {
 
@@ -18,7 +18,7 @@ namespace fauxboard::host {
 /// packets for a capture.
 ///
 /// Which end is the board shows in what is said: the first line that only one of the two can have said (see
-/// telling_direction) decides, once and for all. What came before is kept back until then, up to
+/// record::telling_direction) decides, once and for all. What came before is kept back until then, up to
 /// `undecided_limit` lines and packets; after those, the guess stands: the board is end B.
 class TapTalk final : public TapObserver {
   public:
@@ -28,12 +28,12 @@ class TapTalk final : public TapObserver {
     /// `lines` hears each line as a live board's observer does: on_sent from the board, on_received from the
     /// screen, ends of lines off, NULs left in. `packets` may be null. `board`: the end that is the board,
     /// where that is known. All outlive this.
-    TapTalk(LiveObserver& lines, PcapngWriter* packets, std::optional<TapSide> board);
+    TapTalk(LiveObserver& lines, record::PcapngWriter* packets, std::optional<TapSide> board);
 
     void on_passed(SimTime now, TapSide from, std::string_view bytes) override;
     void on_link(SimTime now, TapSide side, link::LinkState state, std::string_view why) override;
 
-    /// When tick() wants to be called next; `printer::never` if not at all.
+    /// When tick() wants to be called next; `machine::never` if not at all.
     SimTime due() const;
     void tick(SimTime now);
     /// The tap has ended: what is unfinished or kept back goes out.
@@ -66,7 +66,7 @@ class TapTalk final : public TapObserver {
     const Side& of(TapSide side) const { return sides_[static_cast<std::size_t>(side)]; }
 
     LiveObserver& lines_;
-    PcapngWriter* packets_;
+    record::PcapngWriter* packets_;
     std::optional<TapSide> board_;
     std::array<Side, 2> sides_;
     std::vector<Item> undecided_;

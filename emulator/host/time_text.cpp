@@ -35,7 +35,7 @@ std::optional<Speed> parse_speed(std::string_view text) {
     return Speed{.factor = *number, .max = false};
 }
 
-std::optional<printer::SimTime> parse_duration(std::string_view text) {
+std::optional<machine::SimTime> parse_duration(std::string_view text) {
     static constexpr std::array<std::pair<std::string_view, double>, 6> units{
         {{"", 1}, {"s", 1}, {"ms", 1e-3}, {"us", 1e-6}, {"min", 60}, {"h", 3600}}};
     const auto number = take_number(text);
@@ -44,7 +44,7 @@ std::optional<printer::SimTime> parse_duration(std::string_view text) {
     }
     for (const auto& [unit, seconds] : units) {
         if (text == unit && *number * seconds <= max_seconds) {
-            return printer::from_seconds(*number * seconds);
+            return machine::from_seconds(*number * seconds);
         }
     }
     return std::nullopt;

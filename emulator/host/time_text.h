@@ -3,7 +3,7 @@
 #include <optional>
 #include <string_view>
 
-#include "emulator/printer/sim_time.h"
+#include "emulator/machine/sim_time.h"
 
 namespace fauxboard::host {
 
@@ -20,6 +20,6 @@ std::optional<Speed> parse_speed(std::string_view text);
 
 /// "500ms", "10s", "5min", "24h", a plain number is seconds; "1.5h" too. Nothing for anything else, for
 /// negative and for more than 100 years.
-std::optional<printer::SimTime> parse_duration(std::string_view text);
+std::optional<machine::SimTime> parse_duration(std::string_view text);
 
 }  // namespace fauxboard::host

@@ -5,11 +5,11 @@
 #include <string_view>
 #include <vector>
 
-#include "emulator/printer/sim_time.h"
+#include "emulator/machine/sim_time.h"
 
 namespace fauxboard::screen {
 
-using printer::SimTime;
+using machine::SimTime;
 
 /// What a screen makes of a line, from harmless to fatal.
 enum class Verdict : std::uint8_t {

@@ -18,7 +18,7 @@ bool by_itself(const ScreenProfile& profile, const Judgement& judgement, std::st
 }
 
 std::string seconds(SimTime time) {
-    return short_text(printer::to_seconds(time)) + " s";
+    return short_text(machine::to_seconds(time)) + " s";
 }
 
 }  // namespace
@@ -128,7 +128,7 @@ SimTime Listener::deadline() const {
     if (wanted_.empty()) {
         return start_ + silence_;
     }
-    SimTime first = printer::never;
+    SimTime first = machine::never;
     for (const Wanted& one : wanted_) {
         if (!one.came) first = std::min(first, start_ + one.what.within + slack_);
     }

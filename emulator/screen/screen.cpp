@@ -69,12 +69,12 @@ void Screen::catch_up(SimTime now) {
 
 SimTime Screen::idle_due() const {
     return ready() && !page().stays && !profile_->idle_target.empty() ? touched_ + profile_->idle
-                                                                      : printer::never;
+                                                                      : machine::never;
 }
 
 SimTime Screen::next_due() const {
     if (!on_) {
-        return printer::never;
+        return machine::never;
     }
     if (hello_due_) {
         return power_on_ + profile_->line.deaf;

@@ -52,7 +52,7 @@ class Screen {
     /// Bytes from the board. Lost while the screen is off or starting.
     void receive(SimTime now, std::string_view bytes);
     /// Does what is due up to `now`, but stops as soon as there is output. Returns when it wants to be called
-    /// next (printer::never: not before something comes), which may be in the past if it stopped early.
+    /// next (machine::never: not before something comes), which may be in the past if it stopped early.
     SimTime advance(SimTime now);
     /// Bytes for the board, since the last clear_output().
     std::string_view output() const { return output_; }

@@ -82,8 +82,8 @@ Json to_json(const TourResult& result) {
     one["sent"] = utf8(result.sent);
     one["expected"] = result.expected;
     one["came"] = utf8(result.came);
-    one["at_s"] = printer::to_seconds(result.at);
-    one["took_s"] = printer::to_seconds(result.took);
+    one["at_s"] = machine::to_seconds(result.at);
+    one["took_s"] = machine::to_seconds(result.took);
     one["sentence"] = result.sentence;
     return one;
 }
@@ -100,7 +100,7 @@ std::string result_json(const TourResult& result) {
 
 std::string judgement_json(const Judgement& judgement, SimTime at) {
     Json out;
-    out["t"] = printer::to_seconds(at);
+    out["t"] = machine::to_seconds(at);
     out["lint"] = judged(judgement);
     return dump(out, -1);
 }

@@ -10,13 +10,13 @@
 #include <vector>
 
 #include "emulator/behaviour/source.h"
-#include "emulator/printer/sim_time.h"
+#include "emulator/machine/sim_time.h"
 #include "emulator/screen/expression.h"
 #include "emulator/screen/values.h"
 
 namespace fauxboard::screen {
 
-using printer::SimTime;
+using machine::SimTime;
 
 inline constexpr std::size_t no_page = static_cast<std::size_t>(-1);
 

@@ -33,7 +33,7 @@ std::vector<const Prepare*> pointers(const std::vector<Prepare>& steps) {
 }
 
 std::string seconds(SimTime time) {
-    return fixed_text(printer::to_seconds(time), 2) + " s";
+    return fixed_text(machine::to_seconds(time), 2) + " s";
 }
 
 }  // namespace

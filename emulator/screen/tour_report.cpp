@@ -50,7 +50,7 @@ std::string tour_table(std::span<const TourResult> results) {
                                   "Sent", "Came");
     for (const TourResult& result : results) {
         out += fmt::format("{:<{}}  {:<11}  {:>6.2f} s  {:<36}  {}\n", result.button, widest,
-                           tour_verdict_words(result.verdict), printer::to_seconds(result.took),
+                           tour_verdict_words(result.verdict), machine::to_seconds(result.took),
                            joined(result.sent, 33), joined(result.came, 60));
     }
     out += fmt::format("\n{} buttons: {} met, {} not met, {} not pressed\n", results.size(),
@@ -91,7 +91,7 @@ std::string tour_junit(std::string_view screen, std::span<const TourResult> resu
     for (const TourResult& result : results) {
         behaviour::JUnitCase one{class_name(screen, result.button),
                                  result.button,
-                                 printer::to_seconds(result.took),
+                                 machine::to_seconds(result.took),
                                  "",
                                  "",
                                  false};

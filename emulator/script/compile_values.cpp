@@ -97,10 +97,10 @@ void compile_event(Compiler& c, const Json& value, const std::string& at, Trigge
         return;
     }
     const auto& name = value.get_ref<const std::string&>();
-    const auto event = printer::find_event(name);
+    const auto event = machine::find_event(name);
     if (!event) {
         std::vector<std::string_view> names;
-        for (const printer::EventInfo& info : printer::events()) {
+        for (const machine::EventInfo& info : machine::events()) {
             names.push_back(info.name);
         }
         c.findings().add(at, fmt::format("unknown event \"{}\"", name),
@@ -109,7 +109,7 @@ void compile_event(Compiler& c, const Json& value, const std::string& at, Trigge
     }
     out.event = *event;
     out.words =
-        fmt::format("the event {} ({})", name, printer::events()[static_cast<std::size_t>(*event)].help);
+        fmt::format("the event {} ({})", name, machine::events()[static_cast<std::size_t>(*event)].help);
 }
 
 void compile_page(Compiler& c, const Json& value, const std::string& at, Trigger& out) {

@@ -166,9 +166,9 @@ class Loader {
 };
 
 void read_card(const Json& node, Findings& findings, const Cast& cast, Scenario& out) {
-    printer::MachineConfig machine = *cast.profile->machine;
+    machine::MachineConfig machine = *cast.profile->machine;
     behaviour::load_machine(Json{{"card", node}}, "", findings, machine);
-    out.card = std::make_shared<const std::vector<printer::BuiltInEntry>>(machine.card.entries);
+    out.card = std::make_shared<const std::vector<machine::BuiltInEntry>>(machine.card.entries);
 }
 
 std::vector<Step> Loader::body(Parameters& parameters, Findings& findings,

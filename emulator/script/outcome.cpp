@@ -27,7 +27,7 @@ Json outcome_json(const Scenario& scenario, const Outcome& outcome, const Json& 
              {"profile", scenario.cast.profile->name},
              {"verdict", verdict_name(outcome.verdict)},
              {"sentence", outcome.sentence},
-             {"t", printer::to_seconds(outcome.at)},
+             {"t", machine::to_seconds(outcome.at)},
              {"steps_done", outcome.steps}};
     if (scenario.cast.screen != nullptr) {
         out["screen"] = scenario.cast.screen->name;
@@ -51,15 +51,15 @@ Json outcome_json(const Scenario& scenario, const Outcome& outcome, const Json& 
                   {"verdict", step_verdicts[static_cast<std::size_t>(result.verdict)]},
                   {"line", result.where.line}};
         if (result.verdict != StepResult::Verdict::not_reached) {
-            step["t"] = printer::to_seconds(result.at);
-            step["took"] = printer::to_seconds(result.took);
+            step["t"] = machine::to_seconds(result.at);
+            step["took"] = machine::to_seconds(result.took);
         }
         steps.push_back(std::move(step));
     }
     out["steps"] = std::move(steps);
     Json talk = Json::array();
     for (const Talk& each : outcome.talk) {
-        talk.push_back({{"t", printer::to_seconds(each.at)},
+        talk.push_back({{"t", machine::to_seconds(each.at)},
                         {"from", talkers[static_cast<std::size_t>(each.from)]},
                         {"line", each.text}});
     }
@@ -74,7 +74,7 @@ std::string outcome_junit(const Scenario& scenario, const Outcome& outcome) {
         behaviour::JUnitCase one;
         one.class_name = "scenario." + scenario.name;
         one.name = std::to_string(cases.size() + 1) + ". " + result.words;
-        one.seconds = printer::to_seconds(result.took);
+        one.seconds = machine::to_seconds(result.took);
         if (result.verdict == StepResult::Verdict::failed) {
             one.failure = verdict_name(outcome.verdict);
             one.message = result.sentence;

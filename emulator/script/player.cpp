@@ -14,7 +14,7 @@
 namespace fauxboard::script {
 namespace {
 
-using printer::never;
+using machine::never;
 using Verdict = Outcome::Verdict;
 
 constexpr SimTime look_every = std::chrono::milliseconds(100);
@@ -84,8 +84,8 @@ void Player::on_sent(SimTime now, board::Channel channel, std::string_view line)
     push({host ? Trigger::Kind::host_line : Trigger::Kind::line, now, std::string(body), {}});
 }
 
-void Player::on_event(SimTime now, printer::EventId event) {
-    keep_talk(now, Talk::From::event, printer::events()[static_cast<std::size_t>(event)].name);
+void Player::on_event(SimTime now, machine::EventId event) {
+    keep_talk(now, Talk::From::event, machine::events()[static_cast<std::size_t>(event)].name);
     push({Trigger::Kind::event, now, {}, event});
 }
 

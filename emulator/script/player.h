@@ -28,7 +28,7 @@ class Player final : public board::Observer {
     ~Player() override;
 
     /// Does what is due at `now`; `real` is time by the clock on the wall since the run began. Returns when
-    /// it wants to be called next, printer::never when not before something passes or it is done.
+    /// it wants to be called next, machine::never when not before something passes or it is done.
     SimTime advance(SimTime now, SimTime real, Stage& stage);
     /// Ends it before its time: `why` is "by SIGTERM", "by --duration".
     void interrupt(SimTime now, std::string_view why);
@@ -43,7 +43,7 @@ class Player final : public board::Observer {
                      board::Verdict verdict) override;
     void on_sent(SimTime now, board::Channel channel, std::string_view line) override;
     void on_notice(SimTime, board::Level, std::string_view) override {}
-    void on_event(SimTime now, printer::EventId event) override;
+    void on_event(SimTime now, machine::EventId event) override;
 
   private:
     /// What has passed and is still to be seen by those who wait.
@@ -51,7 +51,7 @@ class Player final : public board::Observer {
         Trigger::Kind kind;
         SimTime at;
         std::string text;  ///< without frame and checksum
-        printer::EventId event{};
+        machine::EventId event{};
     };
     /// Where a branch is in one of the blocks it has entered.
     struct Level {

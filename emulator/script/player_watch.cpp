@@ -19,7 +19,7 @@ constexpr SimTime real_grace = std::chrono::minutes(5);
 
 SimTime Player::real_limit(const Step& step) const {
     return step.real.value_or(real_grace +
-                              printer::from_seconds(printer::to_seconds(step.within) * real_per_virtual_));
+                              machine::from_seconds(machine::to_seconds(step.within) * real_per_virtual_));
 }
 
 /// A wait that is over, or should be by now.

@@ -51,7 +51,7 @@ struct Trigger {
     Kind kind = Kind::time;
     SimTime time{0};
     std::shared_ptr<const Pattern> pattern;
-    printer::EventId event{};
+    machine::EventId event{};
     std::vector<behaviour::Condition> conditions;
     std::vector<std::string> fields;  ///< those that the conditions look at
     std::size_t page = 0;
@@ -116,7 +116,7 @@ class Scenario {
     std::size_t steps = 0;                                        ///< all of them, those of blocks included
     std::vector<std::pair<std::string, std::string>> parameters;  ///< name and value as JSON
     /// What is on its SD card, when it brings one.
-    std::shared_ptr<const std::vector<printer::BuiltInEntry>> card;
+    std::shared_ptr<const std::vector<machine::BuiltInEntry>> card;
     /// Limits of steps that give none.
     struct Limits {
         SimTime wait = std::chrono::seconds(60);

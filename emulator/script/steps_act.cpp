@@ -186,7 +186,7 @@ bool take_away(Acting& acting, const MadeFault& made) {
     }
     bool done = false;
     acting.stage.visit([&](board::Board& board, SimTime now) {
-        board.tinker(now, [&](printer::Printer& p) { done = p.breakdowns.remove(made.printer); });
+        board.tinker(now, [&](machine::Printer& p) { done = p.breakdowns.remove(made.printer); });
     });
     return done;
 }
@@ -202,7 +202,7 @@ std::string run_fault(Acting& acting, const Step& step) {
     MadeFault made;
     if (fault::is_for_printer(*step.fault)) {
         acting.stage.visit([&](board::Board& board, SimTime now) {
-            board.tinker(now, [&](printer::Printer& p) {
+            board.tinker(now, [&](machine::Printer& p) {
                 made.printer = p.breakdowns.add(now, fault::to_request(*step.fault));
             });
         });
@@ -246,7 +246,7 @@ std::string run_clear(Acting& acting, const Step& step) {
     if (step.text == all_faults) {
         acting.stage.faults()->clear();
         acting.stage.visit([](board::Board& board, SimTime now) {
-            board.tinker(now, [](printer::Printer& p) { p.breakdowns.clear(); });
+            board.tinker(now, [](machine::Printer& p) { p.breakdowns.clear(); });
         });
         acting.faults.clear();
     } else if (const auto hit = acting.faults.find(step.text); hit != acting.faults.end()) {

@@ -21,7 +21,7 @@ constexpr std::size_t most_name_bytes = 200;
 /// Without progress for so long, the file does not get through.
 constexpr int most_tries = 100;
 /// Who sends: a number that no socket gives out.
-constexpr std::uint64_t sender = printer::Transfer::usb_side - 1;
+constexpr std::uint64_t sender = machine::Transfer::usb_side - 1;
 
 /// Sends a file as slicers do: a piece, an answer. Past sockets and their faults, at one moment.
 class Sender {
@@ -98,7 +98,7 @@ void compile_upload(Compiler& c, const Json& value, ObjectReader& reader, Step& 
     if (const Json* exposure = reader.get("exposure")) {
         const SimTime time =
             c.time(*exposure, reader.pointer("exposure"), SimTime{1000}, std::chrono::hours(1));
-        sample.exposure_s = static_cast<float>(printer::to_seconds(time));
+        sample.exposure_s = static_cast<float>(machine::to_seconds(time));
     }
     out.bytes = sliced::make_sample(sample);
 }

@@ -66,7 +66,7 @@ std::optional<SimTime> time_from_text(std::string_view text) {
 }
 
 std::string time_words(SimTime time) {
-    const double seconds = printer::to_seconds(time);
+    const double seconds = machine::to_seconds(time);
     if (time < SimTime{1'000'000}) {
         return fmt::format("{:g} ms", seconds * 1000);
     }

@@ -4,11 +4,11 @@
 #include <string>
 #include <string_view>
 
-#include "emulator/printer/sim_time.h"
+#include "emulator/machine/sim_time.h"
 
 namespace fauxboard::script {
 
-using printer::SimTime;
+using machine::SimTime;
 
 /// "200C", "1.5min", "30mm/s", "50%": the number in `unit`, as fields and arguments of actions name theirs.
 /// Units of the same family are converted ("2min" in s is 120). Nothing when it is no number with a unit of

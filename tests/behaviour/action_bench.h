@@ -16,16 +16,16 @@
 namespace fauxboard::testing {
 
 using namespace fauxboard::behaviour;
-using printer::EventId;
+using machine::EventId;
 using std::string;
 
 struct Bench final : NoticeSink {
     std::shared_ptr<const Profile> profile;
-    printer::Printer machine{profile->machine, {}, 1};
+    machine::Printer machine{profile->machine, {}, 1};
     std::vector<double> variables{profile->variables[0].initial};
     std::vector<string> notices;
     bool reset = false;
-    printer::SimTime now{0};
+    machine::SimTime now{0};
 
     explicit Bench(std::shared_ptr<const Profile> of = small_profile()) : profile(std::move(of)) {
         machine.power_on(now);
@@ -54,7 +54,7 @@ struct Bench final : NoticeSink {
         reset = context.reset;
     }
     void pass(double seconds) {
-        now += printer::from_seconds(seconds);
+        now += machine::from_seconds(seconds);
         machine.advance(now);
     }
     double number(std::string_view path) const { return find_field(path)->get(machine).number; }
@@ -66,7 +66,7 @@ struct Bench final : NoticeSink {
         }
         return found;
     }
-    void heat(double c) { machine.thermal.set_temperature(printer::HeaterId::nozzle, c); }
+    void heat(double c) { machine.thermal.set_temperature(machine::HeaterId::nozzle, c); }
     void print() {
         run(R"([{"job.select": {"name": "a.gcode"}}, "job.start"])");
         machine.events.clear();

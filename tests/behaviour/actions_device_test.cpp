@@ -49,8 +49,8 @@ const std::vector<ActionRow>& device_action_rows() {
          }},
         {"udisk.remove",
          [](Bench& b) {
-             const std::vector<printer::BuiltInEntry> files;
-             printer::BuiltInVolume disk(files);
+             const std::vector<machine::BuiltInEntry> files;
+             machine::BuiltInVolume disk(files);
              b.machine.storage.attach(1, &disk);
              b.run(R"("udisk.remove")");
              CHECK_FALSE(b.machine.storage.usable(1));
@@ -58,11 +58,11 @@ const std::vector<ActionRow>& device_action_rows() {
          }},
         {"udisk.fail",
          [](Bench& b) {
-             const std::vector<printer::BuiltInEntry> files;
-             printer::BuiltInVolume disk(files);
+             const std::vector<machine::BuiltInEntry> files;
+             machine::BuiltInVolume disk(files);
              b.machine.storage.attach(1, &disk);
              b.run(R"("udisk.fail")");
-             CHECK(b.machine.storage.state(1) == printer::DiskState::failed);
+             CHECK(b.machine.storage.state(1) == machine::DiskState::failed);
              CHECK(b.raised(EventId::card_failed));
          }},
         {"card.mount",
@@ -222,13 +222,13 @@ const std::vector<ActionRow>& device_action_rows() {
         {"board.stall",
          [](Bench& b) {
              b.run(R"({"board.stall": {"ms": 40}})");
-             CHECK(b.machine.take_stall() == printer::SimTime{40000});
-             CHECK(b.machine.take_stall() == printer::SimTime{0});
+             CHECK(b.machine.take_stall() == machine::SimTime{40000});
+             CHECK(b.machine.take_stall() == machine::SimTime{0});
              for (int i = 0; i < 100; ++i) {
                  b.run(R"({"board.stall": {"ms": 40, "most_ms": 150}})");
                  const auto stall = b.machine.take_stall();
-                 CHECK(stall >= printer::SimTime{40000});
-                 CHECK(stall <= printer::SimTime{150000});
+                 CHECK(stall >= machine::SimTime{40000});
+                 CHECK(stall <= machine::SimTime{150000});
              }
          }},
         {"board.reset",

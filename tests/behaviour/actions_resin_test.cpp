@@ -97,7 +97,7 @@ const std::vector<ActionRow>& resin_action_rows() {
              CHECK(b.number("config.home_again_speed") == 4);
              CHECK(b.number("config.lift_fast_speed") == 6);
              CHECK(b.number("config.lift_wait") == 7);
-             CHECK(b.machine.resin->used[printer::ResinSetting::lift_wait] == 1);
+             CHECK(b.machine.resin->used[machine::ResinSetting::lift_wait] == 1);
              b.run(R"("config.set")", "M8085 I99999");
              CHECK(b.number("config.logo") == 6000);
              CHECK(b.notices.size() == 1);
@@ -105,7 +105,7 @@ const std::vector<ActionRow>& resin_action_rows() {
         {"config.use",
          [](Bench& b) {
              b.run(R"(["config.set", "config.use"])", "M8026 I100");
-             CHECK(b.machine.resin->used[printer::ResinSetting::max_height] == 100);
+             CHECK(b.machine.resin->used[machine::ResinSetting::max_height] == 100);
          }},
         {"wifi.join",
          [](Bench& b) {

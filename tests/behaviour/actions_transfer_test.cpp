@@ -8,7 +8,7 @@ namespace {
 
 /// A file that the card has.
 string a_file(Bench& b) {
-    for (const printer::CardEntry& entry : b.machine.listing()) {
+    for (const machine::CardEntry& entry : b.machine.listing()) {
         if (!entry.folder && entry.bytes != 0) {
             return entry.name;
         }

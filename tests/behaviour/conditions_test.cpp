@@ -15,8 +15,8 @@ namespace {
 
 bool holds(const string& when, const string& request = "M1 S2 P5") {
     static const auto profile = fauxboard::testing::small_profile();
-    printer::Printer machine(profile->machine, {}, 1);
-    machine.power_on(printer::SimTime{0});
+    machine::Printer machine(profile->machine, {}, 1);
+    machine.power_on(machine::SimTime{0});
     machine.screen.firmware = "V1.02";
     const std::vector<double> variables{1.5};
     Document document;

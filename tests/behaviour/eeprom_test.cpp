@@ -16,13 +16,13 @@ using std::string;
 namespace {
 
 struct Bench {
-    printer::Printer machine{
+    machine::Printer machine{
         fauxboard::testing::small_profile(R"({ "machine": { "resin": {} } })")->machine, {}, 1};
-    Bench() { machine.power_on(printer::SimTime{0}); }
+    Bench() { machine.power_on(machine::SimTime{0}); }
 };
 
 /// Every stored field gets another value than the one it has.
-void change_everything(printer::Printer& machine) {
+void change_everything(machine::Printer& machine) {
     double part = 0.1;
     for (const Field& field : fields()) {
         if (field.stored && field.type != FieldType::text) {

@@ -17,9 +17,9 @@ using std::string;
 namespace {
 
 struct Bench {
-    printer::Printer machine{
+    machine::Printer machine{
         fauxboard::testing::small_profile(R"({ "machine": { "resin": {} } })")->machine, {}, 1};
-    Bench() { machine.power_on(printer::SimTime{0}); }
+    Bench() { machine.power_on(machine::SimTime{0}); }
     double number(std::string_view path) { return find_field(path)->get(machine).number; }
 };
 

@@ -16,15 +16,15 @@ namespace {
 
 /// A machine and all that a template can see.
 struct Bench {
-    printer::Printer machine{fauxboard::testing::small_profile()->machine, {}, 1};
+    machine::Printer machine{fauxboard::testing::small_profile()->machine, {}, 1};
     std::vector<double> variables{1.5};
     protocol::Command command;
     string body;
-    printer::CardEntry entry{"Name.GCO", false, 7};
+    machine::CardEntry entry{"Name.GCO", false, 7};
     Names names;
 
     explicit Bench(string request = "M1 S12.345 P-2 FW:V1.02 x") : body(std::move(request)) {
-        machine.power_on(printer::SimTime{0});
+        machine.power_on(machine::SimTime{0});
         command = *protocol::parse_command(body);
         names.variables.emplace("count", 0);
         names.request = true;
@@ -130,7 +130,8 @@ TEST_CASE("templates: errors say what is wrong and what was meant") {
     CHECK(bench.error("{S}").find("needs a format") != string::npos);
     CHECK(bench.error("{var.count}").find("needs a format") != string::npos);
     CHECK(bench.error("{position.x:.7f}").find("unknown format \".7f\"") != string::npos);
-    CHECK(bench.error("{position.x:%3.2f}").find("expected .0f to .6f, d, s, lower or upper") != string::npos);
+    CHECK(bench.error("{position.x:%3.2f}").find("expected .0f to .6f, d, s, lower or upper") !=
+          string::npos);
     CHECK(bench.error("{position.x:s}").find("is a number and cannot be written with the format \"s\"") !=
           string::npos);
     CHECK(bench.error("{screen.firmware:d}").find("is a text and cannot be written") != string::npos);

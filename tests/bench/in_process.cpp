@@ -19,7 +19,7 @@ namespace fauxboard::bench {
 namespace {
 
 using board::Board;
-using printer::SimTime;
+using machine::SimTime;
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
@@ -170,7 +170,7 @@ std::vector<Figure> memory(const Settings& settings) {
     const std::int64_t before = allocations().live_bytes;
     for (std::size_t i = 0; i < count; ++i) {
         auto& board =
-            *boards.emplace_back(std::make_unique<Board>(profile(), printer::Services{}, board::Options{}));
+            *boards.emplace_back(std::make_unique<Board>(profile(), machine::Services{}, board::Options{}));
         SimTime now{0};
         board.power_on(now);
         for (const std::string& request : recorded_mix()) {

@@ -16,8 +16,8 @@
 namespace fauxboard::bench {
 namespace {
 
-using printer::JobStatus;
-using printer::SimTime;
+using machine::JobStatus;
+using machine::SimTime;
 using Clock = std::chrono::steady_clock;
 
 constexpr double least_lines_per_second = 300'000;
@@ -32,7 +32,7 @@ struct Print {
 
 /// Prints the file on `disk` from its first line to its last.
 Print print(testing::MemoryDisk& disk) {
-    printer::Services services;
+    machine::Services services;
     services.sd = &disk;
     board::Board board(host::load_profile_by_name("geeetech-a30t"), services, {});
     SimTime now{0};

@@ -11,7 +11,7 @@
 
 #include "emulator/board/board.h"
 #include "emulator/host/profile_files.h"
-#include "emulator/printer/memory_volume.h"
+#include "emulator/machine/memory_volume.h"
 #include "emulator/sliced/sample.h"
 #include "tests/bench/child.h"
 #include "tests/bench/figure.h"
@@ -19,7 +19,7 @@
 namespace fauxboard::bench {
 namespace {
 
-using printer::SimTime;
+using machine::SimTime;
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* profile_name = "elegoo-mars-pro";
@@ -45,11 +45,11 @@ std::vector<Question> questions() {
 /// In the board's own time: from the request's last byte to the first byte of its reply.
 std::vector<Figure> virtual_reply(const Settings&) {
     const auto profile = host::load_profile_by_name(profile_name);
-    printer::BuiltInEntry file;
+    machine::BuiltInEntry file;
     file.name = file_name;
     file.content = sliced::make_sample({});
-    printer::MemoryVolume stick({file});
-    printer::Services services;
+    machine::MemoryVolume stick({file});
+    machine::Services services;
     services.sd = &stick;
     board::Board board(profile, services, {});
     SimTime now{0};
@@ -78,7 +78,7 @@ std::vector<Figure> virtual_reply(const Settings&) {
         if (!board.output().starts_with(question.start)) {
             throw std::runtime_error("another reply to " + question.request);
         }
-        longest_ms = std::max(longest_ms, printer::to_seconds(board.time() - asked) * 1000);
+        longest_ms = std::max(longest_ms, machine::to_seconds(board.time() - asked) * 1000);
         board.clear_output();
     }
     return {{"resin board, longest first reply, board's time", "ms", longest_ms, {}, limit_ms}};

@@ -252,7 +252,7 @@ TEST_CASE("without pacing a flood that nobody reads stops at a bound, and goes o
         flood += protocol::frame("M115");
     }
     for (int i = 0; i < 100; ++i) {
-        board.receive(printer::from_seconds(1), flood);
+        board.receive(machine::from_seconds(1), flood);
     }
     CHECK(board.output().size() < 64 * 1024);
     CHECK(board.counters().requests_lost > 90000);
@@ -263,7 +263,7 @@ TEST_CASE("without pacing a flood that nobody reads stops at a bound, and goes o
 TEST_CASE("a board that nobody advanced for a day works off what is overdue, without end or growth") {
     BoardDriver driver;
     board::Board& board = driver.board();
-    board.receive(printer::from_seconds(86400), protocol::frame("M2140 S5"));
+    board.receive(machine::from_seconds(86400), protocol::frame("M2140 S5"));
     CHECK(board.output().size() < 64 * 1024);
     driver.run_until(86410);
     CHECK(driver.lines().size() < 1000);

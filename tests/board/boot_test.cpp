@@ -40,7 +40,7 @@ void check_burst(const char* profile, const vector<Message>& expected) {
     driver.run_until(0.7);
     string bytes;
     vector<string> timed;
-    const double tick = printer::to_seconds(driver.board().profile().tick);
+    const double tick = machine::to_seconds(driver.board().profile().tick);
     for (std::size_t i = 0; i < expected.size(); ++i) {
         for (const string& body : expected[i]) {
             bytes += protocol::frame(body);
@@ -103,14 +103,14 @@ TEST_CASE("boot: a missing card is told between the first temperatures and the f
 }
 
 TEST_CASE("boot: a job that a power loss cut off is offered at the end of the burst") {
-    struct Saved final : printer::JobPlaceStore {
-        std::optional<printer::JobPlace> load() override {
-            printer::JobPlace place;
+    struct Saved final : machine::JobPlaceStore {
+        std::optional<machine::JobPlace> load() override {
+            machine::JobPlace place;
             place.path = "testpattern.gcode";
             place.bytes = 109;
             return place;
         }
-        void keep(const printer::JobPlace&) override {}
+        void keep(const machine::JobPlace&) override {}
         void drop() override {}
     } store;
     for (const char* profile : {"geeetech-a30t", "geeetech-a30"}) {

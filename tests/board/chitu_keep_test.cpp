@@ -72,8 +72,8 @@ TEST_CASE("chitu keep: a file whose name ends like a checksum is not taken for a
     ResinBench bench;
     bench.disk.put("a", "old");
     // Past the line, which takes such an end off.
-    printer::Transfer& transfer = bench.board.machine().transfer;
-    const printer::SimTime now = printer::from_seconds(bench.now());
+    machine::Transfer& transfer = bench.board.machine().transfer;
+    const machine::SimTime now = machine::from_seconds(bench.now());
     REQUIRE(transfer.upload(now, 5, "a*7"));
     CHECK_FALSE(transfer.existed());
     REQUIRE(transfer.piece(now, 5, true, 0, "new"));

@@ -45,7 +45,7 @@ struct Print {
     void start() { REQUIRE(ask(std::string("M6030 '") + seed_file + "'") == "ok N:0\r\n"); }
     /// Of this moment, and not of the last thing that happened.
     double number(const char* path) {
-        driver.board().refresh(printer::from_seconds(driver.now()));
+        driver.board().refresh(machine::from_seconds(driver.now()));
         return driver.number(path);
     }
     /// Runs on until so many layers have been exposed.

@@ -67,7 +67,7 @@ void run_vector(const std::string& profile, const ChituVector& vector) {
     if (vector.after_s > first_line_s) {
         driver.run_until(asked + vector.after_s);
     }
-    driver.board().refresh(printer::from_seconds(driver.now()));
+    driver.board().refresh(machine::from_seconds(driver.now()));
     check_state(driver, vector);
     for (const auto& [name, content] : vector.files) {
         CHECK(read_file(folder.file(name)) == content);

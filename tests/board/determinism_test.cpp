@@ -202,9 +202,9 @@ TEST_CASE("determinism: a board called only at the times it asked for says the s
     BoardDriver driver("geeetech-a30t", seeded(7));
     std::size_t calls = 0;
     const auto run_as_asked = [&](double end) {
-        const board::SimTime stop = printer::from_seconds(end);
+        const board::SimTime stop = machine::from_seconds(end);
         for (board::SimTime due = driver.board().advance(driver.board().time()); due < stop; ++calls) {
-            driver.run_until(printer::to_seconds(due));
+            driver.run_until(machine::to_seconds(due));
             due = driver.board().advance(due);
         }
         driver.run_until(end);
@@ -223,8 +223,8 @@ TEST_CASE("an idle, cold board asks to be called for its next L3, and not before
     driver.run_until(1);
     driver.meet_screen();
     driver.run_until(7.6);
-    const board::SimTime due = driver.board().advance(printer::from_seconds(7.7));
-    CHECK(printer::to_seconds(due) == doctest::Approx(11.648).epsilon(0.001));
+    const board::SimTime due = driver.board().advance(machine::from_seconds(7.7));
+    CHECK(machine::to_seconds(due) == doctest::Approx(11.648).epsilon(0.001));
 }
 
 TEST_CASE("no pacing: the same answers in the same order, each at once") {

@@ -17,9 +17,9 @@ void get_ready(BoardDriver& driver) {
 }
 
 /// A card whose entries a test makes up.
-struct FakeCard final : printer::Volume {
-    std::vector<printer::CardEntry> entries;
-    bool list(std::string_view folder, std::vector<printer::CardEntry>& out) const override {
+struct FakeCard final : machine::Volume {
+    std::vector<machine::CardEntry> entries;
+    bool list(std::string_view folder, std::vector<machine::CardEntry>& out) const override {
         if (!folder.empty()) {
             return false;
         }
@@ -27,7 +27,7 @@ struct FakeCard final : printer::Volume {
         return true;
     }
     Kind look(std::string_view path, std::uint64_t& bytes) const override {
-        for (const printer::CardEntry& entry : entries) {
+        for (const machine::CardEntry& entry : entries) {
             if (entry.name == path) {
                 bytes = entry.bytes;
                 return entry.folder ? Kind::folder : Kind::file;

@@ -112,7 +112,7 @@ TEST_CASE_FIXTURE(Ready,
 
 TEST_CASE_FIXTURE(Ready, "host stream: nobody at the other end costs nothing and keeps nothing") {
     driver.board().connect(board::Channel::host, false);
-    driver.board().receive(printer::from_seconds(driver.now()), "M105\nM20\n", board::Channel::host);
+    driver.board().receive(machine::from_seconds(driver.now()), "M105\nM20\n", board::Channel::host);
     CHECK(driver.board().output(board::Channel::host).empty());
 }
 
@@ -139,7 +139,7 @@ TEST_CASE("host stream: a whole print with damaged and lost lines: every move on
             return;
         }
         ++moves;
-        const printer::AxisValues& at = driver.machine().motion.planned();
+        const machine::AxisValues& at = driver.machine().motion.planned();
         char text[64];
         std::snprintf(text, sizeof text, "X%.3f Y%.3f Z%.3f", at[0], at[1], at[2]);
         planned.insert(text);

@@ -16,7 +16,7 @@ namespace {
 
 using namespace std::chrono_literals;
 using Texts = std::vector<std::string>;
-using printer::SimTime;
+using machine::SimTime;
 
 constexpr std::uint64_t alice = 11;
 constexpr std::uint64_t bob = 12;
@@ -36,8 +36,8 @@ struct Network {
         pass(3s);
     }
 
-    printer::Services services() {
-        printer::Services made;
+    machine::Services services() {
+        machine::Services made;
         made.sd = &disk;
         return made;
     }
@@ -190,7 +190,7 @@ TEST_CASE("network: one transfer at a time; others are told which, and still ans
     CHECK(net.ask("M29", alice).size() == 2);
     CHECK(net.content("a.ctb") == "abcdef");
     CHECK(net.ask("M28 b.ctb", bob) == Texts{"ok N:0\r\n"});
-    net.pass(printer::Transfer::idle_limit);
+    net.pass(machine::Transfer::idle_limit);
     CHECK(net.ask("M28 c.ctb", alice) == Texts{"ok N:0\r\n"});  // bob is gone
     CHECK(net.ask("M29", alice).size() == 2);
     CHECK(net.content("c.ctb").empty());

@@ -94,9 +94,9 @@ TEST_CASE("own profile: a reset out of a rule drops what that rule still had to 
 }
 
 TEST_CASE("a long file name never costs L3 its progress") {
-    struct Card final : printer::Volume {
+    struct Card final : machine::Volume {
         string name = string(200, 'x') + "\r\n.gco";
-        bool list(std::string_view, std::vector<printer::CardEntry>& out) const override {
+        bool list(std::string_view, std::vector<machine::CardEntry>& out) const override {
             out.push_back({name, false, 5});
             return true;
         }

@@ -12,11 +12,11 @@ using namespace fauxboard::testing;
 
 namespace {
 
-struct MemoryStore final : printer::JobPlaceStore {
-    std::optional<printer::JobPlace> place;
+struct MemoryStore final : machine::JobPlaceStore {
+    std::optional<machine::JobPlace> place;
     int kept = 0;
-    std::optional<printer::JobPlace> load() override { return place; }
-    void keep(const printer::JobPlace& now) override {
+    std::optional<machine::JobPlace> load() override { return place; }
+    void keep(const machine::JobPlace& now) override {
         place = now;
         ++kept;
     }
@@ -71,7 +71,7 @@ TEST_CASE("recovery: the place of a cut job is offered, and the print goes on th
     const double seconds = cuts.driver->number("job.seconds");
     const double bed = cuts.driver->number("heaters.bed.target");
     const double nozzle = cuts.driver->number("heaters.nozzle.target");
-    const printer::AxisValues at = cuts.driver->machine().motion.executed();
+    const machine::AxisValues at = cuts.driver->machine().motion.executed();
     REQUIRE(nozzle > 0);
 
     cuts.power_on();

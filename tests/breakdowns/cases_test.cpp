@@ -126,10 +126,10 @@ TEST_CASE("faults of the printer, with the other board and its screen, which non
 TEST_CASE("every fault of the table has a case, and no case is of another") {
     std::set<std::string_view> tried;
     for (const FaultCase& c : fault_cases()) {
-        CHECK(printer::find_breakdown(c.kind()) != nullptr);
+        CHECK(machine::find_breakdown(c.kind()) != nullptr);
         tried.insert(c.kind());
     }
-    for (const printer::BreakdownInfo& info : printer::breakdowns()) {
+    for (const machine::BreakdownInfo& info : machine::breakdowns()) {
         CAPTURE(std::string(info.name));
         CHECK(tried.contains(info.name));
     }

@@ -107,13 +107,13 @@ TEST_CASE("of one kind and part there is one: the newer takes the older's place;
     rig.add_fault("heater_dead:power=20");
     CHECK(state(rig, "p1") == "over");
     CHECK(state(rig, "p2") == "active");
-    CHECK(rig.machine().thermal.trouble(printer::HeaterId::nozzle).strength == 0.2);
-    CHECK(rig.machine().thermal.trouble(printer::HeaterId::bed).strength == 0);
+    CHECK(rig.machine().thermal.trouble(machine::HeaterId::nozzle).strength == 0.2);
+    CHECK(rig.machine().thermal.trouble(machine::HeaterId::bed).strength == 0);
     rig.do_it({{"op", "faults.remove"}, {"fault", "p1"}});
-    CHECK(rig.machine().thermal.trouble(printer::HeaterId::nozzle).strength == 0.2);
+    CHECK(rig.machine().thermal.trouble(machine::HeaterId::nozzle).strength == 0.2);
     rig.do_it({{"op", "faults.clear"}});
-    CHECK(rig.machine().thermal.trouble(printer::HeaterId::nozzle) == printer::HeaterTrouble{});
-    CHECK(rig.machine().thermal.trouble(printer::HeaterId::bed) == printer::HeaterTrouble{});
+    CHECK(rig.machine().thermal.trouble(machine::HeaterId::nozzle) == machine::HeaterTrouble{});
+    CHECK(rig.machine().thermal.trouble(machine::HeaterId::bed) == machine::HeaterTrouble{});
 }
 
 TEST_CASE("the list is bounded: what is over makes room, what is not does not") {
@@ -122,9 +122,9 @@ TEST_CASE("the list is bounded: what is over makes room, what is not does not") 
     for (int i = 0; i < 500; ++i) {
         rig.add_fault("jam");
     }
-    CHECK(rig.do_it({{"op", "faults.list"}})["faults"].size() == printer::Breakdowns::most);
+    CHECK(rig.do_it({{"op", "faults.list"}})["faults"].size() == machine::Breakdowns::most);
     rig.do_it({{"op", "faults.clear"}});
-    for (std::size_t i = 0; i < printer::Breakdowns::most; ++i) {
+    for (std::size_t i = 0; i < machine::Breakdowns::most; ++i) {
         rig.add_fault("jam:at=1h");
     }
     CHECK(code(rig, add("jam")) == "refused");
@@ -133,7 +133,7 @@ TEST_CASE("the list is bounded: what is over makes room, what is not does not") 
 
 TEST_CASE("the table: words, a field, parameters in bounds, an event that exists, and a way back") {
     std::set<std::string_view> names;
-    for (const printer::BreakdownInfo& info : printer::breakdowns()) {
+    for (const machine::BreakdownInfo& info : machine::breakdowns()) {
         const std::string name(info.name);
         CAPTURE(name);
         CHECK(names.insert(info.name).second);
@@ -145,19 +145,19 @@ TEST_CASE("the table: words, a field, parameters in bounds, an event that exists
         CHECK(ends);
         CHECK(behaviour::find_field("faults." + name) != nullptr);
         CHECK(fault::find_kind(name) != nullptr);
-        CHECK(info.length > printer::SimTime{0});
-        for (const printer::BreakdownParameter& parameter : info.parameters) {
+        CHECK(info.length > machine::SimTime{0});
+        for (const machine::BreakdownParameter& parameter : info.parameters) {
             CHECK(parameter.help.size() > 8);
             CHECK(parameter.min < parameter.max);
             CHECK(parameter.fallback >= parameter.min);
             CHECK(parameter.fallback <= parameter.max);
-            CHECK((parameter.unit == printer::BreakdownUnit::choice) != parameter.choices.empty());
+            CHECK((parameter.unit == machine::BreakdownUnit::choice) != parameter.choices.empty());
             CHECK((parameter.choices.empty() ||
                    parameter.max == static_cast<double>(parameter.choices.size() - 1)));
         }
-        for (const printer::EventId event : info.events) {
-            CHECK(static_cast<std::size_t>(event) < printer::event_count);
+        for (const machine::EventId event : info.events) {
+            CHECK(static_cast<std::size_t>(event) < machine::event_count);
         }
     }
-    CHECK(printer::find_breakdown("") == nullptr);
+    CHECK(machine::find_breakdown("") == nullptr);
 }

@@ -8,8 +8,8 @@
 
 using namespace fauxboard;
 using namespace fauxboard::testing;
-using printer::HeaterId;
-using printer::ThermalAlarm;
+using machine::HeaterId;
+using machine::ThermalAlarm;
 
 namespace {
 
@@ -29,9 +29,9 @@ double moved_in(Rig& rig, double seconds) {
 
 /// Brings the heater to each target in turn and holds it; what the board finds wrong then.
 ThermalAlarm alarm_at(HeaterId heater, std::initializer_list<double> targets) {
-    const printer::ThermalConfig config;
-    printer::Thermal thermal(config, 1);
-    printer::SimTime now{0};
+    const machine::ThermalConfig config;
+    machine::Thermal thermal(config, 1);
+    machine::SimTime now{0};
     thermal.power_on(now);
     for (const double target : targets) {
         thermal.set_target(heater, target);
@@ -77,19 +77,19 @@ TEST_CASE("jam: a detector that feels motion calls it out") {
     const auto profile = small_profile(R"({"machine": {"filament": {"detector_mm": 7, "piece_s": 0.5}}})");
     CHECK(profile->machine->filament.detector_mm == 7);
     LongCard card;
-    printer::Printer machine(profile->machine, {&card, nullptr, nullptr}, 1);
-    machine.power_on(printer::SimTime{0});
+    machine::Printer machine(profile->machine, {&card, nullptr, nullptr}, 1);
+    machine.power_on(machine::SimTime{0});
     machine.set_filament(true);
     machine.filament.detector = true;
     machine.select_file("long.gcode");
     machine.start_or_resume_job();
-    machine.advance(printer::from_seconds(300));
-    machine.breakdowns.add(machine.now(), printer::default_request(*printer::find_breakdown("jam")));
+    machine.advance(machine::from_seconds(300));
+    machine.breakdowns.add(machine.now(), machine::default_request(*machine::find_breakdown("jam")));
     machine.events.clear();
-    machine.advance(printer::from_seconds(330));
+    machine.advance(machine::from_seconds(330));
     bool told = false;
     while (const auto event = machine.events.take()) {
-        told = told || *event == printer::EventId::filament_out;
+        told = told || *event == machine::EventId::filament_out;
     }
     CHECK(told);
 }

@@ -31,7 +31,7 @@ LongCard::LongCard() : text_(";LAYER_COUNT:1\nG28\nM140 S50\nM109 S200\nM83\n;LA
     }
 }
 
-bool LongCard::list(std::string_view folder, std::vector<printer::CardEntry>& out) const {
+bool LongCard::list(std::string_view folder, std::vector<machine::CardEntry>& out) const {
     if (!folder.empty()) {
         return false;
     }
@@ -39,7 +39,7 @@ bool LongCard::list(std::string_view folder, std::vector<printer::CardEntry>& ou
     return true;
 }
 
-printer::Volume::Kind LongCard::look(std::string_view path, std::uint64_t& bytes) const {
+machine::Volume::Kind LongCard::look(std::string_view path, std::uint64_t& bytes) const {
     bytes = text_.size();
     return path == "long.gcode" ? Kind::file : path.empty() ? Kind::folder : Kind::missing;
 }
@@ -89,7 +89,7 @@ void Rig::exchange() {
 }
 
 void Rig::run_until(double seconds) {
-    const SimTime end = printer::from_seconds(seconds);
+    const SimTime end = machine::from_seconds(seconds);
     exchange();
     for (SimTime next = std::min(board_due_, screen_due_); next <= end;
          next = std::min(board_due_, screen_due_)) {
@@ -178,7 +178,7 @@ void Rig::on_received(SimTime now, board::Channel channel, std::string_view line
 }
 
 void Rig::on_sent(SimTime now, board::Channel channel, std::string_view line) {
-    lines_.push_back({printer::to_seconds(now), said(line)});
+    lines_.push_back({machine::to_seconds(now), said(line)});
     hub_.on_sent(now, channel, line);
 }
 

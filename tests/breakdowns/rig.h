@@ -12,13 +12,13 @@
 
 namespace fauxboard::testing {
 
-using printer::SimTime;
+using machine::SimTime;
 
 /// A card with one long file, long.gcode: homing, heating, then an hour of moves that extrude.
-class LongCard final : public printer::Volume {
+class LongCard final : public machine::Volume {
   public:
     LongCard();
-    bool list(std::string_view folder, std::vector<printer::CardEntry>& out) const override;
+    bool list(std::string_view folder, std::vector<machine::CardEntry>& out) const override;
     Kind look(std::string_view path, std::uint64_t& bytes) const override;
     std::optional<std::size_t> read(std::string_view path, std::uint64_t offset,
                                     std::span<char> out) const override;
@@ -41,8 +41,8 @@ class Rig final : private control::Target, private board::Observer {
                  const std::vector<std::string>& specs = {});
 
     void run_until(double seconds);
-    void run_for(double seconds) { run_until(printer::to_seconds(now_) + seconds); }
-    double now() const { return printer::to_seconds(now_); }
+    void run_for(double seconds) { run_until(machine::to_seconds(now_) + seconds); }
+    double now() const { return machine::to_seconds(now_); }
 
     /// The request is sent to the board as the screen does, framed.
     void press(std::string_view body);
@@ -63,7 +63,7 @@ class Rig final : private control::Target, private board::Observer {
     std::string crashes() const;
     /// The board still answers a request.
     bool answers();
-    printer::Printer& machine() { return board_.machine(); }
+    machine::Printer& machine() { return board_.machine(); }
     std::uint64_t requests_lost() const { return board_.counters().requests_lost; }
 
   private:

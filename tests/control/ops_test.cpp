@@ -132,7 +132,7 @@ TEST_CASE("do: actions as in profiles, by phrase, in lists; refusals are errors"
     Bench bench;
     Client client(bench);
     CHECK(client.code(R"({"op": "do", "do": {"heater.target": {"heater": "nozzle", "c": 199}}})").empty());
-    CHECK(bench.own.machine().thermal.target_c(printer::HeaterId::nozzle) == 199);
+    CHECK(bench.own.machine().thermal.target_c(machine::HeaterId::nozzle) == 199);
     CHECK(client.code(R"({"op": "do", "do": "filament in"})").empty());
     CHECK(client.code(R"({"op": "do", "do": ["motion.home", {"set": {"heaters.bed.target": 40}}]})").empty());
     CHECK(client.code(R"({"op": "do", "do": {"stepper.select": {"motor": 9}}})") == "refused");
@@ -241,7 +241,7 @@ TEST_CASE("advance: is answered when time has got there, and further requests wa
     CHECK(rest[0]["id"] == 3);
     CHECK(rest[0]["t"] == 601.0);
     CHECK(client.session.wants_input());
-    CHECK(bench.own.machine().thermal.temperature_c(printer::HeaterId::bed) > 55);
+    CHECK(bench.own.machine().thermal.temperature_c(machine::HeaterId::bed) > 55);
     for (const char* by : {"0s", "31h5", "\"", "-5s", "1e999s", "9000h", ""}) {
         CAPTURE(by);
         CHECK_FALSE(client.code(Json{{"op", "advance"}, {"by", by}}.dump()).empty());

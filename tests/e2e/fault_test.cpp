@@ -5,7 +5,7 @@
 
 #include "emulator/fault/faults.h"
 #include "emulator/fault/kind.h"
-#include "emulator/host/recording.h"
+#include "emulator/record/recording.h"
 #include "tests/e2e/program.h"
 
 namespace fauxboard::e2e {
@@ -278,7 +278,7 @@ TEST_CASE("tap: the line between a board and a screen misbehaves, both ways, and
     CHECK(contains(tap.errors(), "Fault 1, drop:to_board,count=1, acted once on 1 line."));
     CHECK(contains(tap.errors(), "Fault 2, wrong_checksum:to_screen,count=5, acted 5 times on 5 lines."));
     // Recorded is what the board said and got.
-    for (const host::RecordedLine& recorded : host::load_recording(folder.file("tap.jsonl"))) {
+    for (const record::RecordedLine& recorded : record::load_recording(folder.file("tap.jsonl"))) {
         CHECK(right(recorded.bytes));
         CHECK_FALSE(contains(recorded.bytes, "M104 S111"));
     }

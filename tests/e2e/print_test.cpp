@@ -6,7 +6,7 @@
 #include <fstream>
 #include <map>
 
-#include "emulator/host/recording.h"
+#include "emulator/record/recording.h"
 #include "protocol/framing.h"
 #include "tests/e2e/program.h"
 #include "tests/support/sliced_file.h"
@@ -88,9 +88,9 @@ struct Print {
     /// Everything of this start that the board said so far.
     std::vector<std::string> said(std::string_view start) const {
         std::vector<std::string> bodies;
-        for (const host::RecordedLine& line : host::load_recording(folder.file("talk.jsonl"))) {
+        for (const record::RecordedLine& line : record::load_recording(folder.file("talk.jsonl"))) {
             const std::string body(protocol::unframe(line.bytes, protocol::ChecksumPolicy::required).body);
-            if (line.from == host::RecordedLine::From::board && body.starts_with(start)) {
+            if (line.from == record::RecordedLine::From::board && body.starts_with(start)) {
                 bodies.push_back(body);
             }
         }

@@ -1,6 +1,6 @@
 // `run --fault` with faults of the printer, as its users have them.
 
-#include "emulator/host/recording.h"
+#include "emulator/record/recording.h"
 #include "protocol/framing.h"
 #include "tests/e2e/program.h"
 
@@ -23,9 +23,9 @@ struct Broken {
     /// What the board said on its pages of exceptions, whoever listened.
     std::vector<std::string> exceptions() const {
         std::vector<std::string> bodies;
-        for (const host::RecordedLine& line : host::load_recording(recording)) {
+        for (const record::RecordedLine& line : record::load_recording(recording)) {
             const std::string body(protocol::unframe(line.bytes, protocol::ChecksumPolicy::required).body);
-            if (line.from == host::RecordedLine::From::board && body.starts_with("L18 P26")) {
+            if (line.from == record::RecordedLine::From::board && body.starts_with("L18 P26")) {
                 bodies.push_back(body);
             }
         }

@@ -3,7 +3,7 @@
 #include <csignal>
 #include <fstream>
 
-#include "emulator/host/recording.h"
+#include "emulator/record/recording.h"
 #include "tests/e2e/program.h"
 
 namespace fauxboard::e2e {
@@ -194,11 +194,11 @@ TEST_CASE("a recording holds the whole talk") {
     const std::string file = folder.file("talk.jsonl");
     Live live({"--record", file});
     CHECK(live.program.stop() == 0);
-    const auto lines = host::load_recording(file);
+    const auto lines = record::load_recording(file);
     REQUIRE(lines.size() > 17);
     CHECK(lines.front().bytes.starts_with("N-0 L3 "));
     std::size_t at = 0;
-    while (at < lines.size() && lines[at].from != host::RecordedLine::From::screen)
+    while (at < lines.size() && lines[at].from != record::RecordedLine::From::screen)
         ++at;
     REQUIRE(at + 1 < lines.size());
     CHECK(lines[at].bytes + "\r\n" == frame("M104 S111"));

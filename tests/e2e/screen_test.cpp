@@ -4,8 +4,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "emulator/host/recording.h"
 #include "emulator/host/screen_files.h"
+#include "emulator/record/recording.h"
 #include "tests/e2e/program.h"
 #include "tests/e2e/xml.h"
 
@@ -54,9 +54,9 @@ TEST_CASE("the tour presses every button of the screen, and the board meets ever
 }
 
 /// What one side said, of a recording.
-std::vector<std::string> said(const std::string& file, host::RecordedLine::From side) {
+std::vector<std::string> said(const std::string& file, record::RecordedLine::From side) {
     std::vector<std::string> lines;
-    for (const host::RecordedLine& line : host::load_recording(file)) {
+    for (const record::RecordedLine& line : record::load_recording(file)) {
         if (line.from == side) {
             lines.push_back(line.bytes);
         }
@@ -75,7 +75,7 @@ TEST_CASE("the tour passes with a tap in between, which records all that either 
     CHECK(tour.code == 0);
     CHECK(tap.stop() == 0);
     CHECK(board.stop() == 0);
-    using From = host::RecordedLine::From;
+    using From = record::RecordedLine::From;
     CHECK(said(folder.file("tap.jsonl"), From::screen) == said(folder.file("board.jsonl"), From::screen));
     // The tap came to a board that had been talking already, and left before it ended.
     const std::vector<std::string> passed = said(folder.file("tap.jsonl"), From::board);

@@ -3,7 +3,7 @@
 #include "tests/fault/helpers.h"
 
 using namespace fauxboard::fault;
-using fauxboard::printer::never;
+using fauxboard::machine::never;
 
 TEST_CASE("disconnect: acts, is repeatable, ends, both ways") {
     check_interrupts("disconnect");

@@ -4,7 +4,7 @@
 #include "tests/fault/helpers.h"
 
 using namespace fauxboard::fault;
-using fauxboard::printer::never;
+using fauxboard::machine::never;
 using namespace std::string_literals;
 
 TEST_CASE("without faults everything passes at once, also half lines, and nothing is held") {

@@ -70,7 +70,7 @@ TEST_CASE("advance does both directions and gives the earlier time") {
     CHECK(faults.advance(SimTime{0}) == ms(1000));
     CHECK(faults.advance(ms(1000)) == ms(2000));
     CHECK(faults.to_board().output() == "b\n");
-    CHECK(faults.advance(ms(2000)) == fauxboard::printer::never);
+    CHECK(faults.advance(ms(2000)) == fauxboard::machine::never);
     CHECK(faults.to_screen().output() == "a\n");
 }
 

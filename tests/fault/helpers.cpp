@@ -62,7 +62,7 @@ void check_ends_when_cleared(std::string_view own, Direction direction) {
     rig.pass(SimTime{0});
     CHECK(rig.push(frames(3)) == frames(3));
     check_wire(rig);
-    CHECK(rig.line.advance(rig.now) == printer::never);
+    CHECK(rig.line.advance(rig.now) == machine::never);
 }
 
 }  // namespace

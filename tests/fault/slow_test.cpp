@@ -28,7 +28,7 @@ TEST_CASE("slow: at high rates it wants to be called every 5 ms, not for each by
     rig.add("slow:rate=10kB/s");
     rig.push(std::string(999, 'x') + "\n");
     int calls = 0;
-    for (SimTime next = rig.line.advance(rig.now); next != fauxboard::printer::never;
+    for (SimTime next = rig.line.advance(rig.now); next != fauxboard::machine::never;
          next = rig.line.advance(next)) {
         rig.now = next;
         ++calls;

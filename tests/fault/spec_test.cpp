@@ -187,7 +187,7 @@ TEST_CASE("every attribute of every kind survives both forms, at both bounds and
 }
 
 TEST_CASE("faults of the printer are spelled alike: both forms, at both bounds and at the default") {
-    CHECK(printer_kinds().size() == printer::breakdown_count);
+    CHECK(printer_kinds().size() == machine::breakdown_count);
     for (const Kind* kind : printer_kinds()) {
         const std::string name(kind->name);
         CAPTURE(name);
@@ -213,10 +213,10 @@ TEST_CASE("faults of the printer are spelled alike: both forms, at both bounds a
             }
         }
     }
-    const printer::BreakdownRequest request =
+    const machine::BreakdownRequest request =
         to_request(fault_from_text("too_hot:heater=bed,power=40,at=60s,for=1min"));
-    CHECK(request.info->id == printer::BreakdownId::too_hot);
-    CHECK(request.values == printer::BreakdownValues{1, 40});
+    CHECK(request.info->id == machine::BreakdownId::too_hot);
+    CHECK(request.values == machine::BreakdownValues{1, 40});
     CHECK(request.begin == ms(60'000));
     CHECK(request.length == ms(60'000));
     CHECK_FALSE(request.end);

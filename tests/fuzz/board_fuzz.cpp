@@ -26,7 +26,7 @@ namespace fauxboard::fuzz {
 namespace {
 
 using board::Board;
-using printer::SimTime;
+using machine::SimTime;
 
 constexpr std::array<std::string_view, 3> profiles{"geeetech-a30t", "geeetech-a30", "geeetech-a30t-no-card"};
 constexpr SimTime longest{900'000'000};  ///< virtual, of one script
@@ -75,10 +75,10 @@ class Run {
     const std::string& transcript() const { return transcript_; }
 
   private:
-    printer::Services services(bool writable) {
+    machine::Services services(bool writable) {
         disk_.put("old.gco", std::string(old_content));
         disk_.set_room(card_room);
-        printer::Services made;
+        machine::Services made;
         made.sd = writable ? &disk_ : nullptr;
         return made;
     }

@@ -25,7 +25,7 @@ namespace {
 
 using control::Json;
 using control::Session;
-using printer::SimTime;
+using machine::SimTime;
 
 constexpr std::size_t many_steps = 100;
 constexpr SimTime longest_wait{600'000'000};

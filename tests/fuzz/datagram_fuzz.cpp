@@ -22,7 +22,7 @@
 namespace fauxboard::fuzz {
 namespace {
 
-using printer::SimTime;
+using machine::SimTime;
 
 constexpr std::string_view precious = "precious.ctb";
 constexpr std::string_view first_content = "as it was";
@@ -41,8 +41,8 @@ class Network {
     void finish();
 
   private:
-    printer::Services services() {
-        printer::Services made;
+    machine::Services services() {
+        machine::Services made;
         made.sd = &disk_;
         return made;
     }
@@ -78,7 +78,7 @@ void Network::watch(std::string_view request) {
                 "a file changed before its upload was finished");
         last_ = now;
     }
-    require(board_.machine().transfer.position() <= printer::Transfer::max_bytes, "a file beyond the bound");
+    require(board_.machine().transfer.position() <= machine::Transfer::max_bytes, "a file beyond the bound");
 }
 
 void Network::datagram(std::uint64_t peer, std::string_view bytes) {
@@ -116,7 +116,7 @@ void Network::chunk(std::uint64_t peer, std::uint64_t number, bool damaged) {
 }
 
 void Network::spoil(std::uint64_t number) {
-    printer::Transfer::Trouble trouble;
+    machine::Transfer::Trouble trouble;
     const std::array<double*, 4> kinds{&trouble.lost, &trouble.answers_lost, &trouble.damaged,
                                        &trouble.repeated};
     if (const std::uint64_t kind = number % 10; kind < kinds.size()) {

@@ -23,7 +23,7 @@ namespace {
 
 using fault::FaultLine;
 using fault::Faults;
-using printer::SimTime;
+using machine::SimTime;
 
 constexpr std::size_t many_steps = 200;
 constexpr SimTime longest_wait{3'600'000'000};
@@ -154,7 +154,7 @@ void Run::finish() {
     take();
     require(faults_.connected(now_), "cleared, the link is down");
     require(faults_.to_screen().held() + faults_.to_board().held() == 0, "cleared, bytes are held");
-    require(faults_.advance(now_) == printer::never, "cleared, it wants to be called");
+    require(faults_.advance(now_) == machine::never, "cleared, it wants to be called");
     for (FaultLine* line : {&faults_.to_screen(), &faults_.to_board()}) {
         line->push(now_, "half a l");
         require(line->output() == "half a l", "cleared, bytes do not pass at once");

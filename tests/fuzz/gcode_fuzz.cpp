@@ -28,8 +28,8 @@
 namespace fauxboard::fuzz {
 namespace {
 
-using printer::JobStatus;
-using printer::SimTime;
+using machine::JobStatus;
+using machine::SimTime;
 
 constexpr std::array<std::string_view, 3> profiles{"geeetech-a30t", "geeetech-a30", "geeetech-a30t-no-card"};
 constexpr std::string_view file_name = "f.gcode";
@@ -63,8 +63,8 @@ class Print {
     const std::string& transcript() const { return transcript_; }
 
   private:
-    printer::Services services() {
-        printer::Services made;
+    machine::Services services() {
+        machine::Services made;
         made.sd = &disk_;
         return made;
     }
@@ -104,8 +104,8 @@ void Print::provide(std::uint64_t times) {
 
 /// What must hold of the job at any moment.
 void Print::watch() {
-    const printer::Job& job = board_.machine().job;
-    const printer::JobRunner& runner = board_.machine().runner;
+    const machine::Job& job = board_.machine().job;
+    const machine::JobRunner& runner = board_.machine().runner;
     require(job.byte() <= job.bytes(), "the place is beyond the end of the file");
     require(job.progress_percent() >= 0 && job.progress_percent() <= 100, "progress is no percentage");
     require(job.layer >= 0 && job.layers >= 0, "there are fewer layers than none");
@@ -214,7 +214,7 @@ void Print::step(char letter, std::uint64_t number) {
 
 void Print::finish() {
     ask("M2103");
-    constexpr std::uint64_t all = printer::never.count();  // of one file, until the request is taken
+    constexpr std::uint64_t all = machine::never.count();  // of one file, until the request is taken
     pass(std::chrono::seconds(60), all);
     ask("M2103");  // the first one may have found the queue full
     pass(std::chrono::seconds(10), all);

@@ -10,7 +10,7 @@
 namespace fauxboard::fuzz {
 namespace {
 
-using printer::SimTime;
+using machine::SimTime;
 
 constexpr std::array<std::string_view, 12> requests{"log hello", "M2134 FW:V1.02.xx", "M115",        "M105",
                                                     "M104 S200", "M20 LCD",           "M2139",       "M500",

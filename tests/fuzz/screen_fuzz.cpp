@@ -25,7 +25,7 @@
 namespace fauxboard::fuzz {
 namespace {
 
-using printer::SimTime;
+using machine::SimTime;
 using screen::Screen;
 
 constexpr SimTime longest{900'000'000};  ///< virtual, of one script

@@ -12,7 +12,7 @@
 namespace fauxboard::fuzz {
 namespace {
 
-using printer::SimTime;
+using machine::SimTime;
 
 constexpr std::array<std::string_view, 8> said{
     "L1 X1 Y2 Z3 F4",       "L3 PS:0 VL:0 MT:1 FT:0 AL:1 ST:1 WF:1 FN:a PG:1 TM:1 LA:1 LC:1",

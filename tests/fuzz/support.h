@@ -100,10 +100,10 @@ void check_output(std::string_view output, bool checksums);
 /// cleared. Checks that time never goes back, that every stop has output, and that the board wants to be
 /// called again later than now. Gives up quietly after `max_stops` outputs.
 template <class Take>
-void advance_to(board::Board& board, printer::SimTime target, std::size_t max_stops, Take&& take) {
+void advance_to(board::Board& board, machine::SimTime target, std::size_t max_stops, Take&& take) {
     for (std::size_t stops = 0; stops < max_stops; ++stops) {
-        const printer::SimTime before = board.time();
-        const printer::SimTime next = board.advance(target);
+        const machine::SimTime before = board.time();
+        const machine::SimTime next = board.advance(target);
         require(board.time() >= before, "time went back");
         const std::string_view output = board.output();
         if (output.empty()) {

@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "emulator/host/transcript_words.h"
+#include "emulator/record/transcript_words.h"
 #include "tests/fuzz/support.h"
 
 namespace fauxboard::fuzz {
 namespace {
 
-using host::JudgedLine;
-using host::TranscriptEntry;
+using record::JudgedLine;
+using record::TranscriptEntry;
 
 bool harmless(std::string_view text) {
     return std::none_of(text.begin(), text.end(),
@@ -26,30 +26,30 @@ bool one_line(std::string_view text) {
 /// A timed line as JSON is a recording's line again.
 void check_again(const JudgedLine& line, const std::string& json) {
     std::istringstream in(json);
-    const auto again = host::TranscriptReader(in, "again").next();
+    const auto again = record::TranscriptReader(in, "again").next();
     require(again.has_value(), "the JSON of a line is no line");
     require(again->form == TranscriptEntry::Form::json, "the JSON of a timed line is no recording");
     require(again->bytes == line.entry.bytes, "bytes changed on the way through JSON");
     require(again->from == line.entry.from, "the speaker changed on the way through JSON");
 }
 
-std::size_t check_all(std::vector<host::TranscriptReader> readers) {
-    static const std::vector<host::LineJudge> judges = host::line_judges();
-    host::Transcripts transcripts(std::move(readers));
+std::size_t check_all(std::vector<record::TranscriptReader> readers) {
+    static const std::vector<record::LineJudge> judges = record::line_judges();
+    record::Transcripts transcripts(std::move(readers));
     std::size_t count = 0;
     while (auto entry = transcripts.next()) {
         ++count;
-        const JudgedLine line = host::judge(std::move(*entry), judges);
+        const JudgedLine line = record::judge(std::move(*entry), judges);
         const bool bad = line.entry.form == TranscriptEntry::Form::bad;
         require(bad != line.entry.problem.empty(), "a bad line without a sentence, or a good one with");
-        require(line.decoded || bad || line.entry.from == host::RecordedLine::From::world ||
-                    line.entry.from == host::RecordedLine::From::usb || !line.piece.empty(),
+        require(line.decoded || bad || line.entry.from == record::RecordedLine::From::world ||
+                    line.entry.from == record::RecordedLine::From::usb || !line.piece.empty(),
                 "a line was not taken apart");
-        require(one_line(host::text_line(line)), "words that are no line of text");
-        const std::string json = host::json_line(line);
+        require(one_line(record::text_line(line)), "words that are no line of text");
+        const std::string json = record::json_line(line);
         require(one_line(json), "JSON that is no line of text");
         const bool blank = line.entry.bytes.find_first_not_of(" \t") == std::string::npos;
-        if (!bad && line.entry.t && *line.entry.t >= printer::SimTime{0} && !blank) {
+        if (!bad && line.entry.t && *line.entry.t >= machine::SimTime{0} && !blank) {
             check_again(line, json);
         }
     }
@@ -59,7 +59,7 @@ std::size_t check_all(std::vector<host::TranscriptReader> readers) {
 std::size_t count_of(const std::vector<std::string>& texts) {
     std::vector<std::istringstream> streams;
     streams.reserve(texts.size());
-    std::vector<host::TranscriptReader> readers;
+    std::vector<record::TranscriptReader> readers;
     for (const std::string& text : texts) {
         readers.emplace_back(streams.emplace_back(text), "input");
     }

@@ -79,7 +79,7 @@ TEST_CASE("an alarm that never comes is none") {
     const auto clock = make_clock(loop, {0.01, false});
     const auto alarm = clock->make_alarm([] { FAIL("rung"); });
     clock->start();
-    alarm->at(printer::never);
+    alarm->at(machine::never);
     alarm->at(SimTime::max() - 1us);
     clock->run();  // nothing to wait for: comes back at once
 }
@@ -157,7 +157,7 @@ TEST_CASE("an alarm may destroy itself and others, and make new ones") {
     clock.pass(3s);
     CHECK(bells.rung == "n");
     CHECK(bells.times == std::vector<SimTime>{1s});
-    CHECK(clock.earliest() == printer::never);
+    CHECK(clock.earliest() == machine::never);
 }
 
 TEST_CASE("skipped time rings all that is due on the way, each at its moment, on both clocks") {
@@ -198,10 +198,10 @@ TEST_CASE("time before the start is 0; a skip from inside an alarm is refused, a
     CHECK(clock->now() == 0s);
     const auto alarm = clock->make_alarm([&] { CHECK_THROWS_AS(clock->skip(1s), std::logic_error); });
     alarm->at(1s);
-    clock->skip(printer::never);
+    clock->skip(machine::never);
     CHECK(clock->now() > std::chrono::hours(24 * 365 * 1000));
     clock->start();
-    CHECK(clock->now() < printer::never);
+    CHECK(clock->now() < machine::never);
 }
 
 }  // namespace

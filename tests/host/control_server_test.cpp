@@ -23,7 +23,7 @@ using link::test::TemporaryFolder;
 using nlohmann::json;
 
 struct Bench {
-    explicit Bench(SimTime duration = printer::never)
+    explicit Bench(SimTime duration = machine::never)
         : board(load_profile_by_name("geeetech-a30t"), {}, {false, 1, &observers}),
           live(board, link, clock, &observers),
           server({loop, board, live, clock, link, nullptr, [this] { quit = true; },

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "emulator/host/host_error.h"
+#include "emulator/link/host_error.h"
 #include "tests/link/helpers.h"
 
 namespace fauxboard::host {
@@ -107,7 +107,7 @@ TEST_CASE_FIXTURE(Fixture, "places that cannot hold it are refused at the start"
     for (const std::string& bad : {folder.file("missing/eeprom"), pipe, folder.file(""),
                                    std::string("/dev/null"), std::string("/proc/eeprom")}) {
         CAPTURE(bad);
-        CHECK_THROWS_AS(EepromFile(bad, on_trouble), HostError);
+        CHECK_THROWS_AS(EepromFile(bad, on_trouble), link::HostError);
     }
 }
 

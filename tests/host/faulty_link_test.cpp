@@ -69,7 +69,7 @@ TEST_CASE("without a fault bytes pass untouched and at once, the very same bytes
     b.line->write("an");
     b.line->write("swer\r\n");
     CHECK(b.screen.messages == std::vector<std::string>{"an", "swer\r\n"});
-    CHECK(b.clock.earliest() == printer::never);
+    CHECK(b.clock.earliest() == machine::never);
     CHECK(b.line->state() == LinkState::up);
     CHECK(b.line->path() == "nowhere");
     CHECK(b.line->kind() == "fake");
@@ -266,7 +266,7 @@ TEST_CASE("a listener may close or destroy the link from inside its call") {
         b.say("two\n");
         b.clock.pass(5s);
         CHECK(b.heard() == "one\n");
-        CHECK(b.clock.earliest() == printer::never);
+        CHECK(b.clock.earliest() == machine::never);
     }
 }
 

@@ -8,14 +8,14 @@
 #include <limits>
 #include <optional>
 
-#include "emulator/host/host_error.h"
+#include "emulator/link/host_error.h"
 #include "tests/link/helpers.h"
 
 namespace fauxboard::host {
 namespace {
 
 namespace fs = std::filesystem;
-using Kind = printer::Volume::Kind;
+using Kind = machine::Volume::Kind;
 using link::test::TemporaryFolder;
 
 struct Card {
@@ -30,12 +30,12 @@ struct Card {
     }
     void folder(const std::string& name) const { fs::create_directories(root + "/" + name); }
     std::vector<std::string> list(std::string_view path = "") const {
-        std::vector<printer::CardEntry> entries;
+        std::vector<machine::CardEntry> entries;
         std::vector<std::string> names;
         if (!FolderCard(root).list(path, entries)) {
             return {"(none)"};
         }
-        for (const printer::CardEntry& entry : entries)
+        for (const machine::CardEntry& entry : entries)
             names.push_back(entry.name + (entry.folder ? "/" : ":" + std::to_string(entry.bytes)));
         return names;
     }
@@ -159,7 +159,7 @@ TEST_CASE_FIXTURE(Card, "of a huge folder the first entries by name are shown") 
 TEST_CASE_FIXTURE(Card, "a folder that vanishes is an empty card, and may come back") {
     file("a.gcode");
     const FolderCard card(root);
-    std::vector<printer::CardEntry> entries;
+    std::vector<machine::CardEntry> entries;
     fs::remove_all(root);
     CHECK_FALSE(card.list("", entries));
     CHECK(entries.empty());
@@ -267,9 +267,9 @@ TEST_CASE_FIXTURE(Card, "what is no folder is refused at the start") {
     REQUIRE(::mkfifo((root + "/pipe").c_str(), 0600) == 0);
     for (const char* bad : {"/missing", "/a.gcode", "/pipe"}) {
         CAPTURE(std::string(bad));
-        CHECK_THROWS_AS(FolderCard(root + bad), HostError);
+        CHECK_THROWS_AS(FolderCard(root + bad), link::HostError);
     }
-    CHECK_THROWS_AS(FolderCard(""), HostError);
+    CHECK_THROWS_AS(FolderCard(""), link::HostError);
 }
 
 std::string text_of(const std::string& path) {

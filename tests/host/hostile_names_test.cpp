@@ -83,11 +83,11 @@ struct Trap {
 struct Bench {
     FolderCard card;
     board::Board board;
-    printer::SimTime now{0};
+    machine::SimTime now{0};
 
     explicit Bench(const Trap& trap)
         : card(trap.card),
-          board(load_profile_by_name("geeetech-a30t"), printer::Services{&card, nullptr, nullptr, nullptr},
+          board(load_profile_by_name("geeetech-a30t"), machine::Services{&card, nullptr, nullptr, nullptr},
                 {false, 1, nullptr}) {
         board.connect(Channel::host, true);
         board.power_on(now);
@@ -96,13 +96,13 @@ struct Bench {
     /// What both sides are told meanwhile.
     std::string pass(double seconds) {
         std::string said;
-        const printer::SimTime end = now + printer::from_seconds(seconds);
+        const machine::SimTime end = now + machine::from_seconds(seconds);
         const auto take = [&] {
             said.append(board.output()).append(board.output(Channel::host));
             board.clear_output();
         };
         take();
-        for (printer::SimTime due = board.advance(end); due <= end; due = board.advance(end)) {
+        for (machine::SimTime due = board.advance(end); due <= end; due = board.advance(end)) {
             take();
         }
         take();

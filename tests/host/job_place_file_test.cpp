@@ -8,12 +8,12 @@
 #include <fstream>
 #include <random>
 
-#include "emulator/host/host_error.h"
+#include "emulator/link/host_error.h"
 #include "tests/link/helpers.h"
 
 using namespace fauxboard;
 using host::JobPlaceFile;
-using printer::JobPlace;
+using machine::JobPlace;
 
 namespace {
 
@@ -39,7 +39,7 @@ JobPlace sample(std::uint64_t byte) {
     place.byte = byte;
     place.layer = 17;
     place.layers = 200;
-    place.elapsed = printer::SimTime{123'456'789};
+    place.elapsed = machine::SimTime{123'456'789};
     place.at = {10.125, -3.5, 7.2, 1234.56789};
     place.nozzle_c = 205.5;
     place.bed_c = 60;
@@ -159,6 +159,6 @@ TEST_CASE_FIXTURE(Bench, "job place: any file gives a place or none, and the nex
 }
 
 TEST_CASE_FIXTURE(Bench, "job place: a file that cannot be is an error with a reason") {
-    CHECK_THROWS_AS(JobPlaceFile(folder.file("missing/eeprom.job"), {}), host::HostError);
-    CHECK_THROWS_AS(JobPlaceFile("/dev/null", {}), host::HostError);
+    CHECK_THROWS_AS(JobPlaceFile(folder.file("missing/eeprom.job"), {}), link::HostError);
+    CHECK_THROWS_AS(JobPlaceFile("/dev/null", {}), link::HostError);
 }

@@ -11,7 +11,7 @@ namespace {
 using protocol::frame;
 
 struct Bench {
-    explicit Bench(bool pacing = true, SimTime duration = printer::never)
+    explicit Bench(bool pacing = true, SimTime duration = machine::never)
         : board(load_profile_by_name("geeetech-a30t"), {}, {pacing, 1, &witness}),
           live(board, link, clock, &witness) {
         link.open(live);
@@ -87,7 +87,7 @@ TEST_CASE("the printer goes on while nobody is there, and the link's story is to
     b.link.go(link::LinkState::waiting, "gone");
     b.clock.pass(120s);
     b.link.go(link::LinkState::up, "back");
-    CHECK(b.board.machine().thermal.printed_c(printer::ThermalChannel::t0) > 100);
+    CHECK(b.board.machine().thermal.printed_c(machine::ThermalChannel::t0) > 100);
     CHECK(b.witness.links == std::vector<std::string>{"somebody came", "gone", "back"});
     b.link.messages.clear();
     b.live.on_bytes(frame("M105"));

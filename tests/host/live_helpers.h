@@ -14,7 +14,7 @@
 
 namespace fauxboard::host::test {
 
-using printer::SimTime;
+using machine::SimTime;
 using namespace std::chrono_literals;
 
 /// A link without a line: remembers what is written, and says what the test says.

@@ -12,12 +12,12 @@ using protocol::frame;
 struct User final : ScreenUser {
     std::vector<std::string> judged;
     std::vector<std::string> links;
-    SimTime next = printer::never;
+    SimTime next = machine::never;
     int turns = 0;
 
     SimTime on_turn(SimTime) override {
         ++turns;
-        return std::exchange(next, printer::never);
+        return std::exchange(next, machine::never);
     }
     void on_judged(const screen::Judgement& judgement) override { judged.push_back(judgement.line); }
     void on_link(link::LinkState, std::string_view why) override { links.emplace_back(why); }

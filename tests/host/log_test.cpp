@@ -2,11 +2,11 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "emulator/host/host_error.h"
 #include "emulator/host/json_log.h"
 #include "emulator/host/line_log.h"
 #include "emulator/host/recorder.h"
-#include "emulator/host/recording.h"
+#include "emulator/link/host_error.h"
+#include "emulator/record/recording.h"
 #include "tests/link/helpers.h"
 
 namespace fauxboard::host {
@@ -152,13 +152,13 @@ TEST_CASE("a recording holds every line of the wire and can be loaded at any mom
     recorder.on_received(2s, Channel::host, "M115", Verdict::accepted);
     recorder.on_sent(3s, board::Channel::main, "L9 SN:\xFF");
     recorder.on_world(4s, R"({"heater.target":{"heater":"bed","c":60.0}})");
-    const auto lines = load_recording(file);
+    const auto lines = record::load_recording(file);
     REQUIRE(lines.size() == 4);
-    CHECK(lines[3].from == RecordedLine::From::world);
+    CHECK(lines[3].from == record::RecordedLine::From::world);
     CHECK(lines[3].bytes == R"({"heater.target":{"heater":"bed","c":60.0}})");
     CHECK(lines[0].t == 1'000'001us);
-    CHECK(lines[0].from == RecordedLine::From::screen);
-    CHECK(lines[1].from == RecordedLine::From::host);
+    CHECK(lines[0].from == record::RecordedLine::From::screen);
+    CHECK(lines[1].from == record::RecordedLine::From::host);
     CHECK(lines[2].bytes == "L9 SN:\xFF");
     CHECK(recorder.lines() == 4);
 }
@@ -170,7 +170,7 @@ TEST_CASE("a full disk ends the recording once, and nothing else") {
         recorder.on_sent(1s, board::Channel::main, "L1");
     CHECK(troubles.size() == 1);
     CHECK(recorder.lines() == 0);
-    CHECK_THROWS_AS(Recorder("/missing/talk.jsonl", {}), HostError);
+    CHECK_THROWS_AS(Recorder("/missing/talk.jsonl", {}), link::HostError);
 }
 
 }  // namespace

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "emulator/host/recorder.h"
-#include "emulator/host/recording.h"
 #include "emulator/host/tap_log.h"
+#include "emulator/record/recording.h"
 #include "tests/host/tap_files.h"
 
 namespace fauxboard::host {
@@ -129,12 +129,12 @@ TEST_CASE("the recording of a tap holds every line, NULs and all, and reads back
         tap.on_passed(SimTime{1'500'002}, TapSide::a, "M27\n");
         tap.finish();
     }
-    const auto recorded = load_recording(file);
+    const auto recorded = record::load_recording(file);
     REQUIRE(recorded.size() == 3);
     CHECK(recorded[0].t == SimTime{1'000'001});
-    CHECK(recorded[0].from == RecordedLine::From::screen);
+    CHECK(recorded[0].from == record::RecordedLine::From::screen);
     CHECK(recorded[0].bytes == "log A30 LCD OK");
-    CHECK(recorded[1].from == RecordedLine::From::board);
+    CHECK(recorded[1].from == record::RecordedLine::From::board);
     CHECK(recorded[1].bytes == "N-0 L14 \xC4\xFF\"\\*1");
     CHECK(recorded[2].bytes == std::string("\0M27", 4));
     CHECK(recorded[2].t == SimTime{1'500'002});
@@ -144,9 +144,9 @@ TEST_CASE("a packet is a line with its end, or what came before a pause") {
     const TemporaryFolder folder;
     const std::string file = folder.file("tap.pcapng");
     Talk talk;
-    PcapngWriter capture(file, SimTime{0}, {});
+    record::PcapngWriter capture(file, SimTime{0}, {});
     TapTalk tap(talk, &capture, TapSide::b);
-    CHECK(tap.due() == printer::never);
+    CHECK(tap.due() == machine::never);
     tap.on_passed(SimTime{10}, TapSide::a, "M27\r");
     CHECK(tap.due() == SimTime{10} + TapTalk::packet_pause);
     tap.on_passed(SimTime{20}, TapSide::a, "\nM1");
@@ -155,17 +155,17 @@ TEST_CASE("a packet is a line with its end, or what came before a pause") {
     CHECK(capture.packets() == 1);
     tap.tick(SimTime{100'020});
     CHECK(capture.packets() == 2);
-    CHECK(tap.due() == printer::never);
+    CHECK(tap.due() == machine::never);
     tap.on_passed(SimTime{200'000}, TapSide::a, "05\r\nM2");
     CHECK(capture.packets() == 3);
     tap.finish();
     CHECK(capture.packets() == 4);
     const std::string bytes = test::read_file(file);
-    const std::string expected = pcapng_head() +
-                                 pcapng_packet(SimTime{20}, protocol::Direction::to_board, "M27\r\n") +
-                                 pcapng_packet(SimTime{20}, protocol::Direction::to_board, "M1") +
-                                 pcapng_packet(SimTime{200'000}, protocol::Direction::to_board, "05\r\n") +
-                                 pcapng_packet(SimTime{200'000}, protocol::Direction::to_board, "M2");
+    const std::string expected =
+        record::pcapng_head() + record::pcapng_packet(SimTime{20}, protocol::Direction::to_board, "M27\r\n") +
+        record::pcapng_packet(SimTime{20}, protocol::Direction::to_board, "M1") +
+        record::pcapng_packet(SimTime{200'000}, protocol::Direction::to_board, "05\r\n") +
+        record::pcapng_packet(SimTime{200'000}, protocol::Direction::to_board, "M2");
     CHECK((bytes == expected));
     // The lines know nothing of pauses.
     CHECK(talk.told == Told{"10 < M27", "200000 < M105", "200000 < M2"});

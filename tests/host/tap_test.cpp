@@ -133,8 +133,8 @@ TEST_CASE("delays: smallest, middle and largest in fixed memory") {
         CHECK(one.median() <= SimTime{us});
         CHECK(one.median().count() * 32 >= us * 31);
     }
-    delay.add(printer::never);
-    CHECK(delay.max() == printer::never);
+    delay.add(machine::never);
+    CHECK(delay.max() == machine::never);
 }
 
 TEST_CASE("the ends of a line as the command line names them") {

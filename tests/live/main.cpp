@@ -22,14 +22,14 @@
 #include <vector>
 
 #include "emulator/host/profile_files.h"
-#include "emulator/host/recording.h"
-#include "emulator/host/replay.h"
 #include "emulator/link/unique_fd.h"
+#include "emulator/record/recording.h"
+#include "emulator/record/replay.h"
 #include "protocol/framing.h"
 
 namespace {
 
-using fauxboard::host::RecordedLine;
+using fauxboard::record::RecordedLine;
 using Clock = std::chrono::steady_clock;
 
 struct Heard {
@@ -128,7 +128,7 @@ int compare(const std::vector<Heard>& live, const std::vector<RecordedLine>& rep
     std::size_t expected = 0;
     double worst = 0;
     for (const RecordedLine& line : replayed) {
-        const double t = fauxboard::printer::to_seconds(line.t);
+        const double t = fauxboard::machine::to_seconds(line.t);
         if (t > seconds - 0.5) {  // the last half second may be cut off on one side
             break;
         }
@@ -158,12 +158,12 @@ int main(int argc, char** argv) {
     }
     const double seconds = argc > 3 ? std::atof(argv[3]) : 60;
     try {
-        const auto recording = fauxboard::host::load_recording(argv[2]);
+        const auto recording = fauxboard::record::load_recording(argv[2]);
         const auto replayed =
-            fauxboard::host::replay(fauxboard::host::load_profile_by_name("geeetech-a30t"), recording, {});
+            fauxboard::record::replay(fauxboard::host::load_profile_by_name("geeetech-a30t"), recording, {});
         Board board(argv[1]);
         for (const RecordedLine& line : recording) {
-            const double t = fauxboard::printer::to_seconds(line.t);
+            const double t = fauxboard::machine::to_seconds(line.t);
             if (t < seconds && line.from == RecordedLine::From::screen) {
                 board.listen(t);
                 board.say(line.bytes);

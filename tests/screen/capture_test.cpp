@@ -12,7 +12,7 @@
 
 using namespace fauxboard;
 using namespace fauxboard::testing;
-using printer::from_seconds;
+using machine::from_seconds;
 
 namespace {
 

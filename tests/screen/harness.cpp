@@ -46,7 +46,7 @@ Bench::Bench(std::shared_ptr<const screen::ScreenProfile> profile) : screen_(std
 }
 
 void Bench::pass(double seconds) {
-    now_ += printer::from_seconds(seconds);
+    now_ += machine::from_seconds(seconds);
     for (;;) {
         const SimTime next = screen_.advance(now_);
         bytes_ += screen_.output();
@@ -87,7 +87,7 @@ TourRun run_tour(const std::string& name, std::shared_ptr<const behaviour::Profi
     SimTime now{0};
     board.power_on(now);
     screen.power_on(now);
-    const SimTime limit = printer::from_seconds(limit_s);
+    const SimTime limit = machine::from_seconds(limit_s);
     while (!tour.done() && now < limit) {
         const SimTime board_next = board.advance(now);
         if (!board.output().empty()) {
@@ -104,7 +104,7 @@ TourRun run_tour(const std::string& name, std::shared_ptr<const behaviour::Profi
         now = std::max(now + SimTime{1}, std::min(board_next, tour_next));
     }
     return {tour.results(), screen.findings(), screen.counters(),
-            tour.total(),   tour.done(),       printer::to_seconds(now)};
+            tour.total(),   tour.done(),       machine::to_seconds(now)};
 }
 
 }  // namespace fauxboard::testing

@@ -12,7 +12,7 @@
 
 namespace fauxboard::testing {
 
-using printer::SimTime;
+using machine::SimTime;
 
 /// Finds the shipped screens by name, and nothing else.
 behaviour::SourceFinder screen_finder();

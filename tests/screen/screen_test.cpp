@@ -5,12 +5,12 @@
 
 using namespace fauxboard;
 using namespace fauxboard::testing;
-using printer::from_seconds;
+using machine::from_seconds;
 
 TEST_CASE("power-on: deaf, then its hello; off before") {
     screen::Screen screen(shipped_screen("geeetech-a30t"));
     screen.receive(SimTime{0}, "N-0 L21 P0 S0*63\r\n");
-    CHECK(screen.advance(from_seconds(10)) == printer::never);
+    CHECK(screen.advance(from_seconds(10)) == machine::never);
     screen.power_on(from_seconds(10));
     screen.receive(from_seconds(10.5), "N-0 L21 P0 S0*63\r\n");
     CHECK(screen.advance(from_seconds(11.1)) == from_seconds(11.2));

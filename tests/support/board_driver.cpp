@@ -12,8 +12,8 @@
 
 namespace fauxboard::testing {
 
-using printer::from_seconds;
-using printer::to_seconds;
+using machine::from_seconds;
+using machine::to_seconds;
 
 std::shared_ptr<const behaviour::Profile> shipped_profile(std::string_view name) {
     static std::map<std::string, std::shared_ptr<const behaviour::Profile>, std::less<>> loaded;
@@ -133,7 +133,7 @@ void BoardDriver::meet_screen() {
 }
 
 void BoardDriver::heat_nozzle(double c) {
-    board_.machine().thermal.set_temperature(printer::HeaterId::nozzle, c);
+    board_.machine().thermal.set_temperature(machine::HeaterId::nozzle, c);
     run_for(0.7);
 }
 

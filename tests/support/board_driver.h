@@ -39,7 +39,7 @@ class BoardDriver final : private board::Observer {
     struct Setup {
         bool pacing = true;
         std::uint64_t seed = 1;
-        printer::Services services{};
+        machine::Services services{};
         double power_on_at = 0;
     };
 
@@ -98,7 +98,7 @@ class BoardDriver final : private board::Observer {
     std::string text(std::string_view path) const;
 
     board::Board& board() { return board_; }
-    printer::Printer& machine() { return board_.machine(); }
+    machine::Printer& machine() { return board_.machine(); }
 
   private:
     void on_received(board::SimTime now, board::Channel channel, std::string_view line,

@@ -4,12 +4,12 @@
 #include <string>
 #include <string_view>
 
-#include "emulator/printer/printer.h"
+#include "emulator/machine/printer.h"
 
 namespace fauxboard::testing {
 
 /// An EEPROM that outlives its board, and can be made to fail.
-struct MemoryEeprom final : printer::EepromStore {
+struct MemoryEeprom final : machine::EepromStore {
     std::optional<std::string> image;
     int saves = 0;
     bool works = true;

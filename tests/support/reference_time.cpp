@@ -19,7 +19,7 @@ struct Segment {
 
 class Estimate {
   public:
-    explicit Estimate(const printer::Settings& settings) : settings_(settings) {}
+    explicit Estimate(const machine::Settings& settings) : settings_(settings) {}
 
     void take(const std::string& text) {
         std::istringstream words(text.substr(0, text.find(';')));
@@ -145,7 +145,7 @@ class Estimate {
         return (peak - s.entry) / s.acceleration + std::max(peak - exit, 0.0) / s.acceleration;
     }
 
-    const printer::Settings& settings_;
+    const machine::Settings& settings_;
     std::vector<Segment> segments_;
     std::array<double, 4> at_{};
     double feed_ = 25;
@@ -155,7 +155,7 @@ class Estimate {
 
 }  // namespace
 
-double reference_seconds(std::string_view gcode, const printer::Settings& settings) {
+double reference_seconds(std::string_view gcode, const machine::Settings& settings) {
     Estimate estimate(settings);
     std::istringstream lines{std::string(gcode)};
     for (std::string line; std::getline(lines, line);) {

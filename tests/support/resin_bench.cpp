@@ -11,10 +11,10 @@
 namespace fauxboard::testing {
 namespace {
 
-using printer::SimTime;
+using machine::SimTime;
 
-printer::Services services_of(MemoryDisk& disk, printer::EepromStore* eeprom) {
-    printer::Services made;
+machine::Services services_of(MemoryDisk& disk, machine::EepromStore* eeprom) {
+    machine::Services made;
     made.sd = &disk;
     made.eeprom = eeprom;
     return made;
@@ -22,7 +22,7 @@ printer::Services services_of(MemoryDisk& disk, printer::EepromStore* eeprom) {
 
 }  // namespace
 
-ResinBench::ResinBench(std::string_view profile, std::uint64_t room, printer::EepromStore* eeprom)
+ResinBench::ResinBench(std::string_view profile, std::uint64_t room, machine::EepromStore* eeprom)
     : board(shipped_profile(profile), services_of(disk, eeprom), {}),
       pause_(profile == "chitu-4.4.3" ? SimTime{25'000} : SimTime{1'000}) {
     disk.set_room(room);
@@ -38,13 +38,13 @@ void ResinBench::fault(std::string_view spec) {
         return;
     }
     board.tinker(now_,
-                 [&](printer::Printer& p) { REQUIRE(p.breakdowns.add(now_, fault::to_request(made)) != 0); });
+                 [&](machine::Printer& p) { REQUIRE(p.breakdowns.add(now_, fault::to_request(made)) != 0); });
     run_for(0);
 }
 
 void ResinBench::clear_faults() {
     faults_.clear(now_);
-    board.tinker(now_, [](printer::Printer& p) { p.breakdowns.clear(); });
+    board.tinker(now_, [](machine::Printer& p) { p.breakdowns.clear(); });
     run_for(0);
 }
 
@@ -64,7 +64,7 @@ void ResinBench::carry() {
 }
 
 void ResinBench::run_for(double seconds) {
-    const SimTime end = now_ + printer::from_seconds(seconds);
+    const SimTime end = now_ + machine::from_seconds(seconds);
     carry();
     while (now_ < end) {
         now_ = std::clamp(std::min(due_, faults_.advance(now_)), now_ + SimTime{1}, end);
@@ -81,7 +81,7 @@ std::string ResinBench::say(std::string_view bytes, double seconds) {
 }
 
 std::vector<std::string> ResinBench::send(std::string_view datagram, std::uint64_t peer) {
-    run_for(printer::to_seconds(pause_));
+    run_for(machine::to_seconds(pause_));
     answers_.clear();
     board.receive_datagram(now_, peer, datagram);
     run_for(0);
@@ -123,7 +123,7 @@ std::string ResinBench::text(std::string_view path) {
 }
 
 bool ResinBench::reaches(std::string_view path, double value, double seconds) {
-    const SimTime end = now_ + printer::from_seconds(seconds);
+    const SimTime end = now_ + machine::from_seconds(seconds);
     while (number(path) < value) {
         if (now_ >= end) {
             return false;

@@ -20,7 +20,7 @@ namespace fauxboard::testing {
 class ResinBench {
   public:
     explicit ResinBench(std::string_view profile = "elegoo-mars-pro", std::uint64_t room = 100'000'000,
-                        printer::EepromStore* eeprom = nullptr);
+                        machine::EepromStore* eeprom = nullptr);
 
     /// As in `run --fault`: of the line, or of the printer.
     void fault(std::string_view spec);
@@ -39,7 +39,7 @@ class ResinBench {
     std::string text(std::string_view path);
     /// Runs on until a field has at least this value; false when it has not within `seconds`.
     bool reaches(std::string_view path, double value, double seconds = 3600);
-    double now() const { return printer::to_seconds(now_); }
+    double now() const { return machine::to_seconds(now_); }
 
     MemoryDisk disk;
     board::Board board;
@@ -48,11 +48,11 @@ class ResinBench {
     void carry();
 
     fault::Faults faults_;
-    printer::SimTime now_{0};
-    printer::SimTime due_{0};
+    machine::SimTime now_{0};
+    machine::SimTime due_{0};
     std::string heard_;
     std::deque<std::pair<std::uint64_t, std::string>> answers_;
-    printer::SimTime pause_;  ///< behind each datagram: some boards hang when they come too fast
+    machine::SimTime pause_;  ///< behind each datagram: some boards hang when they come too fast
 };
 
 }  // namespace fauxboard::testing

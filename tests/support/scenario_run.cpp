@@ -13,7 +13,7 @@
 #include "emulator/host/script_files.h"
 #include "emulator/host/script_host.h"
 #include "emulator/link/event_loop.h"
-#include "emulator/printer/memory_volume.h"
+#include "emulator/machine/memory_volume.h"
 #include "tests/support/memory_eeprom.h"
 
 namespace fauxboard::testing {
@@ -43,9 +43,9 @@ struct Writer final : host::LiveObserver {
         text += fmt::format("{} < {}\n", now.count(), line);
     }
     void on_notice(SimTime, board::Level, std::string_view) override {}
-    void on_event(SimTime now, printer::EventId event) override {
+    void on_event(SimTime now, machine::EventId event) override {
         text +=
-            fmt::format("{} ! {}\n", now.count(), printer::events()[static_cast<std::size_t>(event)].name);
+            fmt::format("{} ! {}\n", now.count(), machine::events()[static_cast<std::size_t>(event)].name);
     }
     void on_link(SimTime, link::LinkState, std::string_view) override {}
     std::string& text;
@@ -84,9 +84,9 @@ ScenarioRun play(const behaviour::SourceText& source, const ScenarioSetup& setup
     host::Observers observers;
     Writer writer(out.recording);
     observers.add(writer);
-    std::optional<printer::MemoryVolume> card;
+    std::optional<machine::MemoryVolume> card;
     MemoryEeprom eeprom;
-    printer::Services services;
+    machine::Services services;
     services.eeprom = &eeprom;
     if (scenario->card) {
         services.sd = &card.emplace(*scenario->card);
@@ -108,7 +108,7 @@ ScenarioRun play(const behaviour::SourceText& source, const ScenarioSetup& setup
                             scenario, speed);
     observers.add(script);
     line.open(live);
-    const SimTime duration = setup.duration_s > 0 ? printer::from_seconds(setup.duration_s) : printer::never;
+    const SimTime duration = setup.duration_s > 0 ? machine::from_seconds(setup.duration_s) : machine::never;
     live.start(duration, [&] {
         script.interrupt("by --duration");
         loop.stop();

@@ -197,7 +197,7 @@ std::string make_sliced_file(const SlicedFile& wishes) {
     return Writer(wishes).write();
 }
 
-bool MemoryDisk::list(std::string_view folder, std::vector<printer::CardEntry>& out) const {
+bool MemoryDisk::list(std::string_view folder, std::vector<machine::CardEntry>& out) const {
     if (!folder.empty()) {
         return false;
     }
@@ -210,7 +210,7 @@ bool MemoryDisk::list(std::string_view folder, std::vector<printer::CardEntry>& 
     return true;
 }
 
-printer::Volume::Kind MemoryDisk::look(std::string_view path, std::uint64_t& bytes) const {
+machine::Volume::Kind MemoryDisk::look(std::string_view path, std::uint64_t& bytes) const {
     if (const auto file = files_.find(path); file != files_.end()) {
         bytes = file->second.size();
         return Kind::file;

@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "emulator/printer/storage.h"
+#include "emulator/machine/storage.h"
 
 namespace fauxboard::testing {
 
@@ -31,7 +31,7 @@ struct SlicedFile {
 std::string make_sliced_file(const SlicedFile& wishes);
 
 /// A disk whose files are in memory, or made while they are read.
-class MemoryDisk final : public printer::Volume {
+class MemoryDisk final : public machine::Volume {
   public:
     /// Fills `out` with the bytes from `offset` on.
     using Maker = std::function<void(std::uint64_t offset, std::span<char> out)>;
@@ -50,7 +50,7 @@ class MemoryDisk final : public printer::Volume {
     }
     mutable std::uint64_t bytes_read = 0;
 
-    bool list(std::string_view folder, std::vector<printer::CardEntry>& out) const override;
+    bool list(std::string_view folder, std::vector<machine::CardEntry>& out) const override;
     Kind look(std::string_view path, std::uint64_t& bytes) const override;
     std::optional<std::size_t> read(std::string_view path, std::uint64_t offset,
                                     std::span<char> out) const override;

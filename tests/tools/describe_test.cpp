@@ -5,7 +5,7 @@
 #include "emulator/behaviour/actions.h"
 #include "emulator/behaviour/fields.h"
 #include "emulator/fault/kind.h"
-#include "emulator/printer/events.h"
+#include "emulator/machine/events.h"
 #include "protocol/catalogue.h"
 #include "tests/tools/helpers.h"
 #include "tools/describe_reference.h"
@@ -29,7 +29,7 @@ TEST_CASE("describe: all rows are there, each with its words") {
     const auto reference = tools::reference_json(tools::reference_parts);
     CHECK(reference["fields"].size() == behaviour::fields().size());
     CHECK(reference["actions"].size() == behaviour::actions().size());
-    CHECK(reference["events"].size() == printer::events().size());
+    CHECK(reference["events"].size() == machine::events().size());
     CHECK(reference["codes"].size() == protocol::catalogue().size());
     const std::string text = tools::reference_text(tools::reference_parts);
     for (const auto& [part, rows] : reference.items()) {
@@ -83,7 +83,7 @@ TEST_CASE("describe: every kind of fault and every attribute is there, for peopl
     for (const fault::CommonAttribute& attribute : fault::common_attributes()) {
         check_attribute(attribute);
     }
-    CHECK(faults["printer"]["kinds"].size() == printer::breakdowns().size());
+    CHECK(faults["printer"]["kinds"].size() == machine::breakdowns().size());
     for (const fault::Kind* kind : fault::printer_kinds()) {
         CAPTURE(kind->name);
         CHECK(text.find("\n  " + std::string(kind->name) + " ") != std::string::npos);

@@ -16,7 +16,7 @@ using protocol::FieldForm;
 using protocol::FieldInfo;
 using protocol::FieldKind;
 
-std::string quoted(std::string_view text) {
+std::string lua_text(std::string_view text) {
     std::string out = "\"";
     for (const char c : text) {
         if (c == '"' || c == '\\') {
@@ -45,16 +45,16 @@ std::string_view kind_name(FieldKind kind) {
 
 void add_field(std::string& out, const FieldInfo& field) {
     const auto to = std::back_inserter(out);
-    fmt::format_to(to, "            {{ key = {}, name = {}, kind = \"{}\"", quoted(field.key),
-                   quoted(field.name), kind_name(field.kind));
+    fmt::format_to(to, "            {{ key = {}, name = {}, kind = \"{}\"", lua_text(field.key),
+                   lua_text(field.name), kind_name(field.kind));
     if (!field.unit.empty()) {
-        fmt::format_to(to, ", unit = {}", quoted(field.unit));
+        fmt::format_to(to, ", unit = {}", lua_text(field.unit));
     }
     if (field.when != protocol::always) {
         fmt::format_to(to, ", when = {}", field.when);
     }
     if (field.closing != '\0') {
-        fmt::format_to(to, ", closing = {}", quoted(std::string_view(&field.closing, 1)));
+        fmt::format_to(to, ", closing = {}", lua_text(std::string_view(&field.closing, 1)));
     }
     if (field.form == FieldForm::mixing) {
         out += ", form = \"mixing\"";
@@ -63,23 +63,23 @@ void add_field(std::string& out, const FieldInfo& field) {
         out += ", values = {";
         std::string_view comma = " ";
         for (const protocol::ValueName& value : field.values) {
-            fmt::format_to(to, "{}[{}] = {}", comma, value.value, quoted(value.words));
+            fmt::format_to(to, "{}[{}] = {}", comma, value.value, lua_text(value.words));
             comma = ", ";
         }
         out += " }";
     }
     if (!field.meaning.empty()) {
-        fmt::format_to(to, ", meaning = {}", quoted(field.meaning));
+        fmt::format_to(to, ", meaning = {}", lua_text(field.meaning));
     }
     out += " },\n";
 }
 
 void add_code(std::string& out, const CodeInfo& code) {
     const auto to = std::back_inserter(out);
-    fmt::format_to(to, "        {{ code = {}{}, title = {}, meaning = {}", quoted(protocol::code_text(code)),
-                   code.letter == 0 ? ", words = true" : "", quoted(code.title), quoted(code.meaning));
+    fmt::format_to(to, "        {{ code = {}{}, title = {}, meaning = {}", lua_text(protocol::code_text(code)),
+                   code.letter == 0 ? ", words = true" : "", lua_text(code.title), lua_text(code.meaning));
     if (!code.answer.empty()) {
-        fmt::format_to(to, ", answer = {}", quoted(code.answer));
+        fmt::format_to(to, ", answer = {}", lua_text(code.answer));
     }
     if (code.fields.empty()) {
         out += ", fields = {} },\n";

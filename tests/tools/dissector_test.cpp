@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "emulator/host/pcapng.h"
-#include "emulator/host/recording.h"
+#include "emulator/record/pcapng.h"
+#include "emulator/record/recording.h"
 #include "protocol/annotate.h"
 #include "tests/tools/dissector_table.h"
 #include "tests/tools/program.h"
@@ -56,10 +56,10 @@ std::vector<std::string> tshark(const std::vector<Spoken>& talk, const std::stri
     TemporaryFolder folder;
     const std::string file = folder.file("capture.pcapng");
     {
-        host::PcapngWriter capture(file, printer::SimTime{1'700'000'000'000'000}, {});
-        printer::SimTime t{0};
+        record::PcapngWriter capture(file, machine::SimTime{1'700'000'000'000'000}, {});
+        machine::SimTime t{0};
         for (const Spoken& spoken : talk) {
-            t += printer::SimTime{1'234};
+            t += machine::SimTime{1'234};
             capture.packet(t, spoken.direction, spoken.bytes);
         }
     }
@@ -158,10 +158,11 @@ TEST_CASE("the dissector finds the fields that decode finds, in a recording of a
         return;
     }
     std::vector<Spoken> talk;
-    for (const host::RecordedLine& line : host::load_recording(capture)) {
-        if (line.from == host::RecordedLine::From::board || line.from == host::RecordedLine::From::screen) {
+    for (const record::RecordedLine& line : record::load_recording(capture)) {
+        if (line.from == record::RecordedLine::From::board ||
+            line.from == record::RecordedLine::From::screen) {
             talk.push_back(
-                {line.from == host::RecordedLine::From::board ? Direction::to_screen : Direction::to_board,
+                {line.from == record::RecordedLine::From::board ? Direction::to_screen : Direction::to_board,
                  line.bytes});
         }
     }

@@ -13,8 +13,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "emulator/host/recording.h"
 #include "emulator/link/unique_fd.h"
+#include "emulator/record/recording.h"
 #include "tests/tools/program.h"
 
 namespace fauxboard::test {
@@ -81,11 +81,11 @@ TEST_CASE("tap: between two ptys, with recording, capture and words; names gone 
     CHECK(tap.end(SIGTERM) == 0);
     CHECK_FALSE(std::filesystem::exists(std::filesystem::symlink_status(folder.file("A"))));
 
-    const auto recorded = host::load_recording(folder.file("tap.jsonl"));
+    const auto recorded = record::load_recording(folder.file("tap.jsonl"));
     REQUIRE(recorded.size() == 5);
-    CHECK(recorded[0].from == host::RecordedLine::From::board);
+    CHECK(recorded[0].from == record::RecordedLine::From::board);
     CHECK(recorded[0].bytes == "N-0 L21 P0 S0*63");
-    CHECK(recorded[1].from == host::RecordedLine::From::screen);
+    CHECK(recorded[1].from == record::RecordedLine::From::screen);
     CHECK(recorded[4].bytes == "N-0 L14 \xFF*0");
     CHECK(read(folder.file("tap.pcapng")).size() > 500);
     const std::string log = read(folder.file("log"));

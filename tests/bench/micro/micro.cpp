@@ -16,7 +16,7 @@
 namespace {
 
 using namespace fauxboard;
-using printer::SimTime;
+using machine::SimTime;
 
 std::shared_ptr<const behaviour::Profile> profile() {
     static const auto loaded = host::load_profile_by_name("geeetech-a30t");

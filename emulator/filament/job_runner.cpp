@@ -1,0 +1,263 @@
+#include "emulator/filament/job_runner.h"
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "emulator/machine/printer.h"
+
+namespace fauxboard::machine {
+namespace {
+
+/// Read in so long a time at most; what is more has to wait until it is over.
+constexpr std::uint64_t breath_bytes = 4096;
+constexpr SimTime breath{10'000};
+/// End of a file in which slicers leave what they know only then (PrusaSlicer's settings alone are 20 KiB).
+constexpr std::uint64_t tail_bytes = 64 * 1024;
+/// Read ahead to count layers: before the first line, so that it is known at once of most files, and then bit
+/// by bit.
+constexpr std::uint64_t scout_first_bytes = 1024 * 1024;
+constexpr std::uint64_t scout_bytes = 16 * 1024;
+/// How the head goes back to where it was before a pause: as the shipped profiles park it.
+constexpr double return_feed_mm_s = 100;
+constexpr double return_z_feed_mm_s = 20;
+
+}  // namespace
+
+void JobRunner::power_on() {
+    stop();
+    source_.wake = SimTime{0};
+}
+
+void JobRunner::start(SimTime now) {
+    stop();
+    lines_ = unknown_codes_ = source_.moves = 0;
+    printer_.modal = {};
+    wake_ = source_.wake = source_.now = now;
+    read_tail();
+    const Volume* volume = printer_.storage.volume(printer_.job.volume());
+    if (volume != nullptr) {
+        scout_.open(*volume, printer_.job.path());
+        scout(scout_first_bytes);
+    }
+    printer_.job.estimate_s = notes_.seconds();
+    seek();
+}
+
+void JobRunner::pause() {
+    paused_at_ = printer_.motion.planned();
+}
+
+void JobRunner::resume(SimTime now) {
+    wake_ = source_.wake = source_.now = now;
+    // Anew: the card may have been out, and another one may be in.
+    if (!held_) {
+        seek();
+    }
+    const AxisValues at = printer_.motion.planned();
+    if (at == paused_at_) {
+        return;
+    }
+    Procedure back(2);
+    back[0].kind = back[1].kind = ProcedureStep::Kind::to;
+    back[0].values = {paused_at_[0], paused_at_[1], std::nullopt, std::nullopt};
+    back[0].feed_mm_s = return_feed_mm_s;
+    back[1].values = {std::nullopt, std::nullopt, paused_at_[2], std::nullopt};
+    back[1].feed_mm_s = return_z_feed_mm_s;
+    printer_.motion.set_position({std::nullopt, std::nullopt, std::nullopt, paused_at_[3]});
+    printer_.motion.run(back, now, printer_.events);
+}
+
+void JobRunner::seek() {
+    held_ = ended_ = false;
+    enough_byte_ = printer_.job.place() + breath_bytes;
+    const Volume* volume = printer_.storage.volume(printer_.job.volume());
+    reader_.close();
+    if (volume != nullptr) {
+        reader_.open(*volume, printer_.job.path(), printer_.job.place());
+    }
+    source_.byte = printer_.job.place();
+}
+
+void JobRunner::stop() {
+    reader_.close();
+    scout_.close();
+    scout_notes_.clear();
+    source_.arc.clear();
+    notes_.clear();
+    held_ = ended_ = false;
+    close_ = never;
+}
+
+void JobRunner::finished(SimTime now) {
+    stop();
+    close_ = now + from_seconds(printer_.config().job.finished_s);
+}
+
+std::uint64_t JobRunner::executed_byte() const {
+    const bool pending = source_.arc.active() || held_;
+    return printer_.motion.streamed_byte(pending ? source_.byte : printer_.job.place());
+}
+
+/// Whether lines are being read and carried out at all.
+bool JobRunner::reading() const {
+    return printer_.job.status() == JobStatus::printing && !printer_.job.pausing() && !printer_.wait.active();
+}
+
+SimTime JobRunner::next_event() const {
+    if (close_ != never) {
+        return close_;
+    }
+    if (!reading()) {
+        return never;
+    }
+    const bool may = held_ || ended_ ? !printer_.motion.busy() : printer_.motion.can_stream();
+    return may ? std::max(wake(), printer_.now()) : never;
+}
+
+void JobRunner::advance(SimTime now) {
+    source_.now = now;
+    if (close_ <= now) {
+        close_ = never;
+        printer_.close_job();
+    }
+    if (wake() > now || !reading()) {
+        return;
+    }
+    if (scout_.is_open()) {
+        scout(scout_bytes);
+    }
+    if (now >= breath_end_) {
+        breath_end_ = now + breath;
+        enough_byte_ = reader_.byte() + breath_bytes;
+    }
+    // Each round carries out a line or a part of an arc, or ends the loop.
+    const bool open = reader_.is_open();
+    while (reading() && wake() <= now && piece()) {
+        if (reader_.byte() >= enough_byte_) {
+            wake_ = std::max(wake_, breath_end_);
+        }
+    }
+    if (open && printer_.job.active()) {
+        printer_.job.set_byte(static_cast<double>(reader_.byte()));
+    }
+}
+
+/// One step of the work; false when there is none to be done now.
+bool JobRunner::piece() {
+    Motion& motion = printer_.motion;
+    if (ended_) {
+        if (!motion.busy()) {
+            printer_.finish_job();
+        }
+        return false;
+    }
+    if (!motion.can_stream() || (held_ && motion.busy())) {
+        return false;
+    }
+    if (source_.arc.active()) {
+        stream_arc(source_);
+        return true;
+    }
+    if (!held_ && !fetch()) {
+        return ended_;
+    }
+    execute();
+    return true;
+}
+
+/// Reads and parses the next line. False when there is none.
+bool JobRunner::fetch() {
+    const Volume* volume = printer_.storage.volume(printer_.job.volume());
+    if (volume == nullptr || !reader_.is_open()) {
+        lose_file();
+        return false;
+    }
+    std::string_view text;
+    source_.byte = std::min(reader_.byte(), printer_.job.bytes());  // the file may have grown meanwhile
+    switch (reader_.next(text)) {
+        case GcodeReader::Result::line:
+            break;
+        case GcodeReader::Result::end:
+            ended_ = true;
+            return false;
+        case GcodeReader::Result::failed:
+            lose_file();
+            return false;
+    }
+    ++lines_;
+    parse_gcode(text, line_);
+    if (!line_.comment.empty()) {
+        take_comment();
+    }
+    return true;
+}
+
+void JobRunner::take_comment() {
+    if (notes_.take(line_.comment)) {
+        printer_.job.layer = notes_.layer();
+        printer_.job.layers = std::max(notes_.layers(), printer_.job.layers);
+    }
+    printer_.job.estimate_s = notes_.seconds();
+}
+
+void JobRunner::execute() {
+    const GcodeCode* code = line_.letter == 0 ? nullptr : find_code(line_.letter, line_.code);
+    held_ = code != nullptr && code->at_rest && printer_.motion.busy();
+    if (held_ || line_.letter == 0) {
+        return;
+    }
+    if (code == nullptr) {
+        ++unknown_codes_;
+        return;
+    }
+    code->run(source_, line_);
+}
+
+/// The file is gone. The job pauses, so that it can go on when the card is back.
+void JobRunner::lose_file() {
+    printer_.pause_job();
+    const bool there =
+        printer_.storage.look(printer_.job.volume(), printer_.job.path()) == Volume::Kind::unreadable;
+    printer_.events.raise(there ? EventId::job_file_unreadable : EventId::job_file_lost);
+}
+
+/// Reads some of the file ahead of the job, for its layers only. Ends when a comment told their number, at
+/// the end of the file, and when the file fails (which the job finds out by itself).
+void JobRunner::scout(std::uint64_t bytes) {
+    const std::uint64_t enough = scout_.byte() + bytes;
+    std::string_view text;
+    GcodeReader::Result result = GcodeReader::Result::line;
+    while (notes_.layers() == 0 && scout_.byte() < enough) {
+        result = scout_.next(text);
+        if (result != GcodeReader::Result::line) {
+            break;
+        }
+        if (text.starts_with(';')) {
+            scout_notes_.take(text.substr(1));
+            notes_.set_layers(scout_notes_.layers());
+        }
+    }
+    if (result == GcodeReader::Result::end) {
+        notes_.set_layers(scout_notes_.layer());
+    }
+    if (notes_.layers() != 0 || result != GcodeReader::Result::line) {
+        printer_.job.layers = notes_.layers();
+        scout_.close();
+    }
+}
+
+/// Looks into the end of the file for what its slicer tells only there.
+void JobRunner::read_tail() {
+    const Volume* volume = printer_.storage.volume(printer_.job.volume());
+    if (volume == nullptr) {
+        return;
+    }
+    std::uint64_t bytes = 0;
+    volume->look(printer_.job.path(), bytes);
+    std::vector<char> tail(static_cast<std::size_t>(std::min(bytes, tail_bytes)));
+    const auto got = volume->read(printer_.job.path(), bytes - tail.size(), std::span<char>(tail));
+    notes_.take_tail({tail.data(), std::min(got.value_or(0), tail.size())});
+}
+
+}  // namespace fauxboard::machine

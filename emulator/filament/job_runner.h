@@ -1,0 +1,86 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "emulator/filament/gcode_codes.h"
+#include "emulator/filament/gcode_line.h"
+#include "emulator/filament/gcode_reader.h"
+#include "emulator/filament/slicer_comments.h"
+#include "emulator/machine/machine_config.h"
+#include "emulator/machine/sim_time.h"
+
+namespace fauxboard::machine {
+
+class Printer;
+
+/// What a job's file was found to hold, since the start of the job.
+struct JobCounts {
+    std::uint64_t lines = 0;          ///< read, comments included
+    std::uint64_t moves = 0;          ///< G0 to G3 carried out
+    std::uint64_t unknown_codes = 0;  ///< skipped
+};
+
+/// Executes the file of a job: reads its lines as the planner has room, carries out their codes on the
+/// machine, and keeps the Job's place, layers and end.
+///
+/// It runs in virtual time and does nothing between events: it goes on when a block of the planner ends, a
+/// procedure or a wait is over. A line costs no time, but in 10 ms no more than 4 KiB are read, and the line
+/// in which they end (400 KB/s, what such boards read from a card), so that no file can hold the board up.
+class JobRunner {
+  public:
+    explicit JobRunner(Printer& printer) : printer_(printer), source_{printer} {}
+
+    void power_on();
+    /// The job starts, at its place().
+    void start(SimTime now);
+    /// The job pauses: remembers where the head is to be when it goes on. To be called before it is moved.
+    void pause();
+    /// It goes on: the head goes back, and the file is opened anew.
+    void resume(SimTime now);
+    /// The place in the file was changed (M26).
+    void seek();
+    /// The job is over, one way or other.
+    void stop();
+    /// The job is at its end: it is shown for a while.
+    void finished(SimTime now);
+
+    void advance(SimTime now);
+    SimTime next_event() const;
+    /// A finished job is still shown, for a while.
+    bool shows_finished() const { return close_ != never; }
+
+    JobCounts counts() const { return {lines_, source_.moves, unknown_codes_}; }
+    /// The byte in the file at which the move under way begins: what a power cut loses begins here.
+    std::uint64_t executed_byte() const;
+
+  private:
+    bool reading() const;
+    SimTime wake() const { return std::max(wake_, source_.wake); }
+    bool piece();
+    bool fetch();
+    void take_comment();
+    void execute();
+    void read_tail();
+    void scout(std::uint64_t bytes);
+    void lose_file();
+
+    Printer& printer_;
+    GcodeReader reader_;
+    GcodeLine line_;
+    SlicerNotes notes_;
+    GcodeReader scout_;  ///< runs ahead to count layers, where no comment tells their number
+    SlicerNotes scout_notes_;
+    GcodeSource source_;  ///< its byte: where line_ begins
+    std::uint64_t lines_ = 0;
+    std::uint64_t unknown_codes_ = 0;
+    bool held_ = false;      ///< line_ is still to be carried out, once nothing moves
+    bool ended_ = false;     ///< the file is at its end; the moves are not
+    SimTime wake_{0};        ///< not to go on before
+    SimTime breath_end_{0};  ///< of the 10 ms in which no more is read than up to enough_byte_
+    std::uint64_t enough_byte_ = 0;
+    SimTime close_ = never;  ///< when the finished job is no longer shown
+    AxisValues paused_at_{};
+};
+
+}  // namespace fauxboard::machine

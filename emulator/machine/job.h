@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "emulator/machine/sim_time.h"
+
+namespace fauxboard::machine {
+
+/// Print status as L3 tells it (PS).
+enum class JobStatus : std::uint8_t { idle = 0, printing = 1, paused = 2, recovery = 3, finished = 4 };
+
+/// The print job: what is selected, how it stands. Executing the file's G-code is the business of JobRunner,
+/// which moves `byte` and `layer` on.
+class Job {
+  public:
+    void power_on() { *this = Job{}; }
+
+    void select(int volume, std::string path, std::uint64_t bytes);
+    bool selected() const { return !path_.empty(); }
+    /// False when nothing is selected or a job is already under way. Begins where set_byte() said, else at
+    /// the file's start.
+    bool start(SimTime now);
+    bool begin_pause();
+    void pause(SimTime now);
+    bool resume(SimTime now);
+    /// The selected file is taken up at `byte` again, after a power loss; go_on() then prints.
+    void recover(std::uint64_t byte, SimTime elapsed);
+    void go_on(SimTime now);
+    /// False when there is no job.
+    bool stop();
+    bool finish(SimTime now);
+    /// A finished job is no longer shown. False when there is none.
+    bool close();
+
+    JobStatus status() const { return status_; }
+    /// Printing, paused, or being taken up after a power loss.
+    bool active() const {
+        return status_ == JobStatus::printing || status_ == JobStatus::paused ||
+               status_ == JobStatus::recovery;
+    }
+    bool pausing() const { return pausing_; }
+    int volume() const { return volume_; }
+    /// Path on its disk; empty in L3 unless a job is under way or has just finished.
+    const std::string& path() const { return path_; }
+    std::uint64_t byte() const { return active() ? byte_ : 0; }
+    std::uint64_t bytes() const { return active() ? bytes_ : 0; }
+    /// Size of the file selected.
+    std::uint64_t file_bytes() const { return bytes_; }
+    /// Where the job begins, or goes on: in the file selected, whatever its state.
+    std::uint64_t place() const { return byte_; }
+    /// M26; beyond the end is the end.
+    void set_byte(double byte);
+    int progress_percent() const;
+    /// Time printed so far, pauses left out.
+    SimTime elapsed(SimTime now) const;
+    int layer = 0;
+    int layers = 0;
+    double estimate_s = 0;        ///< what the slicer thinks it takes; 0 when it did not say
+    std::string message;          ///< of the last M117
+    bool waits_for_user = false;  ///< M0, M1, M600
+
+  private:
+    JobStatus status_ = JobStatus::idle;
+    bool pausing_ = false;
+    int volume_ = 0;
+    std::string path_;
+    std::uint64_t byte_ = 0;
+    std::uint64_t bytes_ = 0;
+    SimTime before_{0};  ///< printed up to the last pause
+    SimTime since_{0};   ///< start of the running stretch
+};
+
+}  // namespace fauxboard::machine

@@ -1,0 +1,266 @@
+#include "emulator/machine/storage.h"
+
+#include <algorithm>
+
+namespace fauxboard::machine {
+namespace {
+
+constexpr std::size_t max_path_bytes = 255;
+constexpr std::string_view way_back = "Main";
+
+std::string_view last_part(std::string_view path) {
+    const std::size_t slash = path.rfind('/');
+    return slash == std::string_view::npos ? path : path.substr(slash + 1);
+}
+
+std::string_view parent(std::string_view path) {
+    const std::size_t slash = path.rfind('/');
+    return slash == std::string_view::npos ? std::string_view{} : path.substr(0, slash);
+}
+
+std::string_view without_volume(std::string_view name) {
+    const std::size_t colon = name.find(':');
+    // "SD1:", "SD:", "UDISK:": a short word before a colon names the disk, not a folder.
+    if (colon != std::string_view::npos && colon <= 5 && name.find('/') > colon) {
+        return name.substr(colon + 1);
+    }
+    return name;
+}
+
+bool same_letters(std::string_view a, std::string_view b) {
+    const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [&](char x, char y) { return small(x) == small(y); });
+}
+
+/// Spells each part of the path as the disk does. False when it holds no such file or folder.
+bool respell(const Volume& volume, std::string& path) {
+    std::string out;
+    std::vector<CardEntry> entries;
+    for (std::size_t at = 0; at <= path.size();) {
+        const std::size_t slash = std::min(path.find('/', at), path.size());
+        const std::string_view part = std::string_view(path).substr(at, slash - at);
+        at = slash + 1;
+        entries.clear();
+        volume.list(out, entries);
+        const auto hit = std::find_if(entries.begin(), entries.end(),
+                                      [&](const CardEntry& e) { return same_letters(e.name, part); });
+        if (hit == entries.end()) {
+            return false;
+        }
+        out += (out.empty() ? "" : "/") + hit->name;
+    }
+    path = std::move(out);
+    return true;
+}
+
+}  // namespace
+
+bool clean_path(std::string_view folder, std::string_view name, std::string& out) {
+    if (name.size() > max_path_bytes) {
+        return false;
+    }
+    const std::string_view rest = without_volume(name);
+    const bool absolute = rest.size() != name.size() || rest.starts_with('/');
+    out.assign(absolute ? std::string_view{} : folder);
+    std::size_t at = 0;
+    while (at <= rest.size()) {
+        const std::size_t slash = std::min(rest.find('/', at), rest.size());
+        const std::string_view part = rest.substr(at, slash - at);
+        at = slash + 1;
+        if (part.empty() || part == ".") {
+            continue;
+        }
+        const bool control = std::any_of(part.begin(), part.end(),
+                                         [](char c) { return static_cast<unsigned char>(c) < 0x20; });
+        if (part == ".." || control || out.size() + part.size() + 1 > max_path_bytes) {
+            return false;
+        }
+        if (!out.empty()) {
+            out += '/';
+        }
+        out += part;
+    }
+    return true;
+}
+
+void Storage::attach(int disk, Volume* volume) {
+    volumes_[index(disk)] = volume;
+    states_[index(disk)] = volume != nullptr ? DiskState::ok : DiskState::removed;
+    if (disk == chosen_) {
+        folder_.clear();
+    }
+}
+
+void Storage::mount(int disk) {
+    if (states_[index(disk)] == DiskState::removed) {
+        attach(disk, volumes_[index(disk)]);
+    }
+}
+
+void Storage::release(int disk) {
+    if (states_[index(disk)] == DiskState::ok) {
+        states_[index(disk)] = DiskState::removed;
+    }
+}
+
+bool Storage::choose(int disk) {
+    if (disk != 0 && disk != 1) {
+        return false;
+    }
+    chosen_ = disk;
+    folder_.clear();
+    return true;
+}
+
+bool Storage::enter(std::string_view name) {
+    const std::string_view bare = without_volume(name);
+    const std::string_view plain = bare.starts_with('/') ? bare.substr(1) : bare;
+    if (!folder_.empty() && plain.size() == way_back.size() + 1 + last_part(folder_).size() &&
+        plain.starts_with(way_back) && last_part(plain) == last_part(folder_)) {
+        folder_ = std::string(parent(folder_));
+        return true;
+    }
+    std::string path;
+    std::uint64_t bytes = 0;
+    if (!usable(chosen_) || !clean_path(folder_, name, path)) {
+        return false;
+    }
+    if (!path.empty() && volumes_[index(chosen_)]->look(path, bytes) != Volume::Kind::folder) {
+        return false;
+    }
+    folder_ = path;
+    return true;
+}
+
+void Storage::listing(std::vector<CardEntry>& out, unsigned limit) const {
+    out.clear();
+    if (!usable(chosen_)) {
+        return;
+    }
+    if (way_back_ && !folder_.empty()) {
+        out.push_back({std::string(way_back) + "/" + std::string(last_part(folder_)), true, 0});
+    }
+    volumes_[index(chosen_)]->list(folder_, out);  // a folder that vanished meanwhile shows nothing
+    if (out.size() > limit) {
+        out.resize(limit);
+    }
+}
+
+Volume::Kind Storage::look(int disk, std::string_view path) const {
+    std::uint64_t bytes = 0;
+    const Volume::Kind kind = usable(disk) ? volumes_[index(disk)]->look(path, bytes) : Volume::Kind::missing;
+    return kind == Volume::Kind::file ? file_trouble_ : kind;
+}
+
+Storage::Found Storage::find(std::string_view name) const {
+    Found found;
+    if (!usable(chosen_)) {
+        return found;
+    }
+    const Volume& volume = *volumes_[index(chosen_)];
+    const auto look = [&](std::string_view candidate) {
+        std::string path;
+        if (candidate.empty() || !clean_path(folder_, candidate, path) || path.empty()) {
+            return false;
+        }
+        found.kind = volume.look(path, found.bytes);
+        if (found.kind == Volume::Kind::missing && ignore_case_ && respell(volume, path)) {
+            found.kind = volume.look(path, found.bytes);
+        }
+        found.kind = found.kind == Volume::Kind::file ? file_trouble_ : found.kind;
+        found.path = std::move(path);
+        return found.kind != Volume::Kind::missing;
+    };
+    if (look(name)) {
+        return found;
+    }
+    const std::size_t star = name.rfind('*');
+    if (star != std::string_view::npos &&
+        name.find_first_not_of("0123456789", star + 1) == std::string_view::npos) {
+        look(name.substr(0, star));
+    }
+    return found;
+}
+
+const BuiltInEntry* BuiltInVolume::find(std::string_view path) const {
+    const std::vector<BuiltInEntry>* level = &root_;
+    while (true) {
+        const std::size_t slash = path.find('/');
+        const std::string_view part = path.substr(0, slash);
+        const auto hit =
+            std::find_if(level->begin(), level->end(), [&](const BuiltInEntry& e) { return e.name == part; });
+        if (hit == level->end() || slash == std::string_view::npos) {
+            return hit == level->end() ? nullptr : &*hit;
+        }
+        level = &hit->entries;
+        path.remove_prefix(slash + 1);
+    }
+}
+
+bool BuiltInVolume::list(std::string_view folder, std::vector<CardEntry>& out) const {
+    const std::vector<BuiltInEntry>* level = &root_;
+    if (!folder.empty()) {
+        const BuiltInEntry* entry = find(folder);
+        if (entry == nullptr || !entry->folder) {
+            return false;
+        }
+        level = &entry->entries;
+    }
+    for (const BuiltInEntry& e : *level) {
+        out.push_back({e.name, e.folder, e.content.size()});
+    }
+    return true;
+}
+
+Volume::Kind BuiltInVolume::look(std::string_view path, std::uint64_t& bytes) const {
+    const BuiltInEntry* entry = find(path);
+    if (entry == nullptr) {
+        return Kind::missing;
+    }
+    bytes = entry->content.size();
+    return entry->folder ? Kind::folder : Kind::file;
+}
+
+std::optional<std::size_t> BuiltInVolume::read(std::string_view path, std::uint64_t offset,
+                                               std::span<char> out) const {
+    const BuiltInEntry* entry = find(path);
+    if (entry == nullptr || entry->folder) {
+        return std::nullopt;
+    }
+    if (offset >= entry->content.size()) {
+        return 0;
+    }
+    return entry->content.copy(out.data(), out.size(), static_cast<std::size_t>(offset));
+}
+
+bool Storage::path_for_writing(std::string_view name, std::string& path) const {
+    std::uint64_t bytes = 0;
+    if (!usable(chosen_) || name.ends_with('/') || !clean_path({}, name, path) || path.empty()) {
+        return false;
+    }
+    const Volume& volume = *volumes_[index(chosen_)];
+    if (std::string folder(parent(path)); ignore_case_ && !folder.empty() && respell(volume, folder)) {
+        path = folder + "/" + std::string(last_part(path));
+    }
+    const Volume::Kind kind = volume.look(path, bytes);
+    return kind == Volume::Kind::missing || kind == Volume::Kind::file;
+}
+
+bool Storage::write(std::string_view name, std::string_view bytes) {
+    std::string path;
+    Volume* const disk = writable(chosen_);
+    if (disk == nullptr || !path_for_writing(name, path)) {
+        return false;
+    }
+    const std::string beside = path + std::string(unfinished_ending);
+    return disk->create(beside) && disk->append(beside, 0, bytes) && disk->rename(beside, path);
+}
+
+bool Storage::remove(std::string_view name) {
+    const Found found = find(name);
+    Volume* const disk = writable(chosen_);
+    return found.kind == Volume::Kind::file && disk != nullptr && disk->remove(found.path);
+}
+
+}  // namespace fauxboard::machine

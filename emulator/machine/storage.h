@@ -1,0 +1,160 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "emulator/machine/machine_config.h"
+
+namespace fauxboard::machine {
+
+struct CardEntry {
+    std::string name;
+    bool folder = false;
+    std::uint64_t bytes = 0;
+};
+
+/// A disk as the board sees it. Paths are relative to its root, parts parted by '/', never starting with one,
+/// already cleaned by Storage: no "..", no empty parts. An implementation must still not follow anything out
+/// of its root.
+class Volume {
+  public:
+    virtual ~Volume() = default;
+    enum class Kind : std::uint8_t { missing, file, folder, unreadable };
+    /// Appends the entries of a folder, files first, then folders. False, and nothing added, when there is no
+    /// such folder.
+    virtual bool list(std::string_view folder, std::vector<CardEntry>& out) const = 0;
+    /// What stands at `path`, and its size if it is a file.
+    virtual Kind look(std::string_view path, std::uint64_t& bytes) const = 0;
+    /// Reads the file's bytes from `offset` on, as many as `out` holds or there are; 0 at the end. Nothing
+    /// when there is no such file, or it cannot be read.
+    virtual std::optional<std::size_t> read(std::string_view path, std::uint64_t offset,
+                                            std::span<char> out) const = 0;
+    // Writing, which not every disk takes: each function says false then, as for all that cannot be done.
+
+    /// Makes an empty file; empties the one that has that name.
+    virtual bool create(std::string_view /*path*/) { return false; }
+    /// Adds `bytes` to the end of a file, which must be at `offset`. The file is as before when it fails.
+    virtual bool append(std::string_view /*path*/, std::uint64_t /*offset*/, std::string_view /*bytes*/) {
+        return false;
+    }
+    /// Gives a file another name. A file that has it already is replaced, whole, in one step.
+    virtual bool rename(std::string_view /*from*/, std::string_view /*to*/) { return false; }
+    /// Removes a file; folders stay.
+    virtual bool remove(std::string_view /*path*/) { return false; }
+    /// Whether nothing on it ever changes, so that a listing may be kept.
+    virtual bool fixed() const { return false; }
+};
+
+/// The small card that a profile carries within itself.
+class BuiltInVolume final : public Volume {
+  public:
+    explicit BuiltInVolume(const std::vector<BuiltInEntry>& root) : root_(root) {}
+    bool list(std::string_view folder, std::vector<CardEntry>& out) const override;
+    Kind look(std::string_view path, std::uint64_t& bytes) const override;
+    std::optional<std::size_t> read(std::string_view path, std::uint64_t offset,
+                                    std::span<char> out) const override;
+    bool fixed() const override { return true; }
+
+  private:
+    const BuiltInEntry* find(std::string_view path) const;
+    const std::vector<BuiltInEntry>& root_;
+};
+
+enum class DiskState : std::uint8_t { ok = 0, removed = 1, failed = 2 };
+
+/// SD card and U-disk: which one is chosen, which folder is shown, what a name on the line means.
+class Storage {
+  public:
+    static constexpr std::size_t disk_count = 2;  // 0 SD card, 1 U-disk
+
+    /// How the board lists and finds; as CardConfig says.
+    void configure(bool way_back, bool ignore_case) {
+        way_back_ = way_back;
+        ignore_case_ = ignore_case;
+    }
+
+    void attach(int disk, Volume* volume);  ///< nullptr takes it out
+    void set_state(int disk, DiskState state) { states_[index(disk)] = state; }
+    void mount(int disk);    ///< M21: the disk in the slot, if any, comes into use
+    void release(int disk);  ///< M22: it goes out of use, and stays in its slot
+    DiskState state(int disk) const { return states_[index(disk)]; }
+    bool usable(int disk) const {
+        return states_[index(disk)] == DiskState::ok && volumes_[index(disk)] != nullptr;
+    }
+
+    /// False unless `disk` is 0 or 1.
+    bool choose(int disk);
+    int chosen() const { return chosen_; }
+
+    void enter_root() { folder_.clear(); }
+    /// Enters what stands after `M20 file:`: "SD1:/A30T", "A30T", "/A30T/sub", "Main/A30T" (the way back: the
+    /// parent of the folder shown). Any attempt to leave the root, and a folder that is not there, leaves the
+    /// folder as it is.
+    bool enter(std::string_view name);
+    const std::string& folder() const { return folder_; }
+
+    /// What the screen shows of the folder: the way back first unless at the root, at most `limit` entries in
+    /// all.
+    void listing(std::vector<CardEntry>& out, unsigned limit) const;
+
+    /// The disk in the slot, if it is usable and its files can be read.
+    const Volume* volume(int disk) const {
+        return usable(disk) && file_trouble_ == Volume::Kind::file ? volumes_[index(disk)] : nullptr;
+    }
+    /// What stands at `path` on the disk.
+    Volume::Kind look(int disk, std::string_view path) const;
+    /// What every file is found to be that is there: Kind::file for no trouble, missing or unreadable.
+    void set_file_trouble(Volume::Kind kind) { file_trouble_ = kind; }
+
+    /// The same, to write to.
+    Volume* writable(int disk) {
+        return usable(disk) && file_trouble_ == Volume::Kind::file ? volumes_[index(disk)] : nullptr;
+    }
+
+    /// Writes a whole file of the chosen disk, beside and then under its name, so that half a one never
+    /// stands there. False when that cannot be.
+    bool write(std::string_view name, std::string_view bytes);
+    /// Removes a file of the chosen disk. False when there is none, or it cannot be.
+    bool remove(std::string_view name);
+    /// Where a file of this name would be written, below the root. False for a name that cannot be a file's:
+    /// it would leave the root, say, or is a folder's. The file's own name stays as it is spelled.
+    bool path_for_writing(std::string_view name, std::string& path) const;
+
+    /// The disk that listing() would show; nullptr when there is none to show, or when it may change.
+    const Volume* fixed_volume() const {
+        return usable(chosen_) && volumes_[index(chosen_)]->fixed() ? volumes_[index(chosen_)] : nullptr;
+    }
+
+    struct Found {
+        Volume::Kind kind = Volume::Kind::missing;
+        std::string path;  ///< relative to the root
+        std::uint64_t bytes = 0;
+    };
+    /// The file that `name` means, relative to the folder shown. A checksum that a screen kept in the name
+    /// ("x.gco*74") is taken off when there is no file that is really called so.
+    Found find(std::string_view name) const;
+
+  private:
+    static std::size_t index(int disk) { return disk == 1 ? 1 : 0; }
+    std::array<Volume*, disk_count> volumes_{};
+    std::array<DiskState, disk_count> states_{DiskState::removed, DiskState::removed};
+    Volume::Kind file_trouble_ = Volume::Kind::file;
+    int chosen_ = 0;
+    std::string folder_;
+    bool way_back_ = true;
+    bool ignore_case_ = false;
+};
+
+/// What stands behind the name of a file that is being written.
+inline constexpr std::string_view unfinished_ending = ".temp";
+
+/// Joins `name` to `folder` and cleans the result: volume names ("SD1:") and double slashes go. False when it
+/// would leave the root, holds a control character, or is longer than 255 bytes.
+bool clean_path(std::string_view folder, std::string_view name, std::string& out);
+
+}  // namespace fauxboard::machine

@@ -1,0 +1,172 @@
+#include "emulator/record/pcapng.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+#include "emulator/link/host_error.h"
+
+namespace fauxboard::record {
+namespace {
+
+using machine::SimTime;
+using protocol::Direction;
+
+constexpr std::uint32_t section_block = 0x0A0D0D0A;
+constexpr std::uint32_t interface_block = 1;
+constexpr std::uint32_t packet_block = 6;
+constexpr std::uint16_t option_application = 4;   // section
+constexpr std::uint16_t option_name = 2;          // interface
+constexpr std::uint16_t option_description = 3;   // interface
+constexpr std::uint16_t option_resolution = 9;    // interface
+constexpr std::uint16_t option_packet_flags = 2;  // packet
+constexpr std::uint32_t inbound = 1;
+constexpr std::uint32_t outbound = 2;
+
+void little16(std::string& out, std::uint32_t value) {
+    out += static_cast<char>(value & 0xFF);
+    out += static_cast<char>((value >> 8) & 0xFF);
+}
+
+void little32(std::string& out, std::uint32_t value) {
+    little16(out, value);
+    little16(out, value >> 16);
+}
+
+void big32(std::string& out, std::uint32_t value) {
+    for (const int shift : {24, 16, 8, 0}) {
+        out += static_cast<char>((value >> shift) & 0xFF);
+    }
+}
+
+/// To the next multiple of four bytes.
+void pad(std::string& out) {
+    out.append((4 - out.size() % 4) % 4, '\0');
+}
+
+void option(std::string& out, std::uint16_t code, std::string_view value) {
+    little16(out, code);
+    little16(out, static_cast<std::uint32_t>(value.size()));
+    out += value;
+    pad(out);
+}
+
+void end_of_options(std::string& out) {
+    little32(out, 0);
+}
+
+std::string block(std::uint32_t type, std::string_view body) {
+    const auto length = static_cast<std::uint32_t>(body.size() + 12);
+    std::string out;
+    out.reserve(length);
+    little32(out, type);
+    little32(out, length);
+    out += body;
+    little32(out, length);
+    return out;
+}
+
+std::string section() {
+    std::string body;
+    little32(body, 0x1A2B3C4D);  // tells the byte order
+    little16(body, 1);
+    little16(body, 0);
+    body.append(8, '\xFF');  // length of the section: not said
+    option(body, option_application, "fauxboard tap");
+    end_of_options(body);
+    return block(section_block, body);
+}
+
+std::string interface_of(std::string_view name, std::string_view description) {
+    std::string body;
+    little16(body, pcapng_link_type);
+    little16(body, 0);
+    little32(body, 0);  // no limit of a packet's length
+    option(body, option_name, name);
+    option(body, option_description, description);
+    option(body, option_resolution, "\x06");  // times in microseconds
+    end_of_options(body);
+    return block(interface_block, body);
+}
+
+}  // namespace
+
+std::string pcapng_head() {
+    return section() + interface_of("board", "what the board says to the touch screen") +
+           interface_of("screen", "what the touch screen says to the board");
+}
+
+std::string pcapng_packet(SimTime since_epoch, Direction direction, std::string_view bytes) {
+    const auto us = static_cast<std::uint64_t>(since_epoch.count());
+    const bool from_board = direction == Direction::to_screen;
+    const auto length = static_cast<std::uint32_t>(bytes.size() + pcapng_event_bytes);
+    std::string body;
+    little32(body, from_board ? 0 : 1);  // interface
+    little32(body, static_cast<std::uint32_t>(us >> 32));
+    little32(body, static_cast<std::uint32_t>(us & 0xFFFFFFFF));
+    little32(body, length);  // captured
+    little32(body, length);  // on the wire
+    big32(body, static_cast<std::uint32_t>(us / 1'000'000));
+    big32(body, static_cast<std::uint32_t>(us % 1'000'000));
+    body += from_board ? '\x01' : '\x02';
+    body.append(3, '\0');
+    body += bytes;
+    pad(body);
+    std::string flags;
+    little32(flags, from_board ? outbound : inbound);
+    option(body, option_packet_flags, flags);
+    end_of_options(body);
+    return block(packet_block, body);
+}
+
+PcapngWriter::PcapngWriter(std::string file, SimTime start, OnTrouble on_trouble)
+    : file_(std::move(file)),
+      start_(start),
+      on_trouble_(std::move(on_trouble)),
+      fd_(::open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOCTTY, 0666)) {
+    if (!fd_) {
+        throw link::HostError(
+            fmt::format("The capture {} cannot be written ({}). Name a file in a folder of yours.", file_,
+                        std::system_category().message(errno)));
+    }
+    write(pcapng_head());
+}
+
+void PcapngWriter::packet(SimTime now, Direction direction, std::string_view bytes) {
+    if (fd_ && write(pcapng_packet(start_ + now, direction, bytes))) {
+        ++packets_;
+    }
+}
+
+bool PcapngWriter::write(std::string_view block) {
+    std::size_t done = 0;
+    while (done < block.size()) {
+        const ssize_t count = ::write(fd_.get(), block.data() + done, block.size() - done);
+        if (count < 0 && errno == EINTR) {
+            continue;
+        }
+        if (count > 0) {
+            done += static_cast<std::size_t>(count);
+            continue;
+        }
+        const int error = count < 0 ? errno : EIO;
+        // Half a block would make the capture unreadable. On a pipe this fails and does no harm.
+        const off_t end = ::lseek(fd_.get(), 0, SEEK_CUR);
+        if (done != 0 && end >= 0) {
+            [[maybe_unused]] const int cut = ::ftruncate(fd_.get(), end - static_cast<off_t>(done));
+        }
+        fd_.reset();
+        if (on_trouble_) {
+            on_trouble_(fmt::format("the capture {} ends here, after {} packets: {}", file_, packets_,
+                                    std::system_category().message(error)));
+        }
+        return false;
+    }
+    return true;
+}
+
+}  // namespace fauxboard::record

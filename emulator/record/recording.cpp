@@ -1,0 +1,158 @@
+#include "emulator/record/recording.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <istream>
+#include <nlohmann/json.hpp>
+
+#include "emulator/behaviour/wire_text.h"
+
+namespace fauxboard::record {
+namespace {
+
+constexpr std::size_t max_text = 64U * 1024;
+constexpr double max_seconds = 1e9;  // thirty years: beyond it is no recording
+constexpr std::array<std::string_view, 7> from_names{"board", "screen",  "host",  "world",
+                                                     "usb",   "network", "module"};
+
+std::string found(const nlohmann::json& value) {
+    const std::string text = value.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+    return "found " + (text.size() > 60 ? text.substr(0, 60) + "..." : text);
+}
+
+}  // namespace
+
+std::string_view from_name(RecordedLine::From from) {
+    return from_names[static_cast<std::size_t>(from)];
+}
+
+RecordingError::RecordingError(std::string_view file, std::size_t line, std::string_view message)
+    : std::runtime_error(line == 0 ? fmt::format("{}: {}", file, message)
+                                   : fmt::format("{}:{}: {}", file, line, message)) {}
+
+void RecordingReader::fail(std::string_view message) const {
+    throw RecordingError(name_, line_, message);
+}
+
+/// The next line of the file into text_. False at the end.
+bool RecordingReader::read_text() {
+    text_.clear();
+    ++line_;
+    std::streambuf& buffer = *in_.rdbuf();
+    for (;;) {
+        const int c = buffer.sbumpc();
+        if (c == std::char_traits<char>::eof()) {
+            return !text_.empty();
+        }
+        if (c == '\n') {
+            return true;
+        }
+        if (text_.size() == max_text) {
+            fail("a line of more than 64 KiB; expected one JSON object a line");
+        }
+        text_ += static_cast<char>(c);
+    }
+}
+
+std::optional<RecordedLine> RecordingReader::next() {
+    while (read_text()) {
+        if (text_.find_first_not_of(" \t\r") != std::string::npos) {
+            return parse();
+        }
+    }
+    return std::nullopt;
+}
+
+RecordedLine RecordingReader::parse() {
+    const auto entry = nlohmann::json::parse(text_, nullptr, false);
+    if (!entry.is_object()) {
+        fail(entry.is_discarded() ? "not JSON; expected one JSON object a line"
+                                  : found(entry) + "; expected an object with t, from, and line or do");
+    }
+    const auto value = [&](const char* key) -> const nlohmann::json& {
+        const auto hit = entry.find(key);
+        if (hit == entry.end()) {
+            fail(fmt::format("the key \"{}\" is missing", key));
+        }
+        return *hit;
+    };
+    RecordedLine out;
+    const nlohmann::json& t = value("t");
+    if (!t.is_number() || !(t.get<double>() >= 0 && t.get<double>() <= max_seconds)) {
+        fail("t: " + found(t) + "; expected seconds from 0 to 1e9");
+    }
+    out.t = machine::from_seconds(t.get<double>());
+    const nlohmann::json& from = value("from");
+    const auto name = from.is_string() ? std::find(from_names.begin(), from_names.end(),
+                                                   std::string_view(from.get_ref<const std::string&>()))
+                                       : from_names.end();
+    if (name == from_names.end()) {
+        fail("from: " + found(from) + "; expected board, screen, host, world, usb, network or module");
+    }
+    out.from = static_cast<RecordedLine::From>(name - from_names.begin());
+    const char* key = out.key();
+    const nlohmann::json& bytes = value(key);
+    auto wire = bytes.is_string() ? behaviour::to_wire(bytes.get_ref<const std::string&>()) : std::nullopt;
+    const bool ends = wire && wire->find_first_of(std::string_view("\r\n")) != std::string::npos;
+    if (!wire || (ends && !out.is_datagram())) {
+        fail(fmt::format("{}: {}; expected a text of characters up to U+00FF{}", key, found(bytes),
+                         out.is_datagram() ? "" : " without line ends"));
+    }
+    out.bytes = std::move(*wire);
+    if (out.is_datagram()) {
+        const nlohmann::json& peer = value("peer");
+        if (!peer.is_number_unsigned() || peer.get<std::uint64_t>() == 0) {
+            fail("peer: " + found(peer) + "; expected a whole number from 1 on");
+        }
+        out.peer = peer.get<std::uint64_t>();
+    }
+    return out;
+}
+
+std::vector<RecordedLine> load_recording(std::istream& in, std::string_view name) {
+    RecordingReader reader(in, std::string(name));
+    std::vector<RecordedLine> lines;
+    while (auto line = reader.next()) {
+        lines.push_back(std::move(*line));
+    }
+    std::stable_sort(lines.begin(), lines.end(),
+                     [](const RecordedLine& a, const RecordedLine& b) { return a.t < b.t; });
+    return lines;
+}
+
+std::vector<RecordedLine> load_recording(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::error_code error;
+    if (!in || std::filesystem::is_directory(file, error)) {
+        throw RecordingError(file.string(), 0, "no such file, or it cannot be read");
+    }
+    return load_recording(in, file.string());
+}
+
+namespace {
+
+/// `peer`: of a datagram, else 0.
+std::string line_text(machine::SimTime t, std::string_view from, std::uint64_t peer, std::string_view key,
+                      std::string_view bytes) {
+    const std::string text = nlohmann::json(behaviour::from_wire(bytes)).dump(-1, ' ', true);
+    const std::string who = peer == 0 ? std::string{} : fmt::format(", \"peer\": {}", peer);
+    const auto us = t.count();
+    return fmt::format("{{\"t\": {}.{:06}, \"from\": \"{}\"{}, \"{}\": {}}}\n", us / 1'000'000,
+                       us % 1'000'000, from, who, key, text);
+}
+
+}  // namespace
+
+std::string recording_line(machine::SimTime t, std::string_view from, std::string_view key,
+                           std::string_view bytes) {
+    return line_text(t, from, 0, key, bytes);
+}
+
+std::string recording_line(const RecordedLine& line) {
+    return line_text(line.t, from_name(line.from), line.peer, line.key(), line.bytes);
+}
+
+}  // namespace fauxboard::record
