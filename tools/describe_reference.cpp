@@ -22,8 +22,8 @@ void put_text(Json& out, const char* key, std::string_view text) {
 
 Json events_json() {
     Json list = Json::array();
-    for (const machine::EventInfo& event : machine::events()) {
-        list.push_back({{"name", event.name}, {"help", event.help}});
+    for (const machine::EventId event : machine::events()) {
+        list.push_back({{"name", event->name}, {"help", event->help}});
     }
     return list;
 }

@@ -133,8 +133,8 @@ Json refresh_schema(Json schema) {
     put_fields(definitions["assignments"], "number_value", true);
     put_actions(definitions);
     Json properties{{"comment", {{"$ref", "#/definitions/comment"}}}};
-    for (const machine::EventInfo& event : machine::events()) {
-        properties[std::string(event.name)] = reference("rules", event.help);
+    for (const machine::EventId event : machine::events()) {
+        properties[std::string(event->name)] = reference("rules", event->help);
     }
     definitions["events"]["properties"] = std::move(properties);
     return schema;

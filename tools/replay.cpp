@@ -53,7 +53,7 @@ ExitCode replay(const ReplayArguments& arguments) {
         return ExitCode::ok;
     }
     const record::Comparison comparison =
-        record::compare(recording, result.lines, profile->machine->thermal.fold);
+        record::compare(recording, result.lines, record::prints_folded(*profile));
     print(arguments.json ? record::comparison_json(comparison).dump(2, ' ', true) + "\n"
                          : record::comparison_text(comparison));
     return comparison.ok() ? ExitCode::ok : ExitCode::failed;

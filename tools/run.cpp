@@ -168,10 +168,9 @@ void Run::set_up() {
         const fault::FaultSpec spec = fault::fault_from_text(text);
         if (!fault::is_for_printer(spec)) {
             link_->add(spec);
-        } else if (board_->machine().breakdowns.add(SimTime{0}, fault::to_request(spec)) == 0) {
-            throw fault::FaultSpecError(
-                {fmt::format("fault \"{}\": too many faults of the printer; at most {}", text,
-                             machine::Breakdowns::most)});
+        } else if (board_->machine().faults.add(SimTime{0}, fault::to_request(spec)) == 0) {
+            throw fault::FaultSpecError({fmt::format("fault \"{}\": {}", text,
+                                                     board_->machine().faults.refusal(*spec.kind->printer))});
         }
     }
     live_.emplace(*board_, *link_, *clock_, &observers_);
@@ -227,8 +226,8 @@ ExitCode Run::outcome() {
     for (const fault::FaultStatus& status : link_->list()) {
         faults.push_back(fault::status_to_json(status));
     }
-    for (const machine::Breakdown& breakdown : board_->machine().breakdowns.list()) {
-        faults.push_back(fault::breakdown_to_json(breakdown));
+    for (const machine::Fault& broken : board_->machine().faults.list()) {
+        faults.push_back(fault::printer_fault_to_json(broken));
     }
     return tell_outcome(options_, script_->player(), *board_, faults, out_, err_);
 }
@@ -301,8 +300,8 @@ void Run::say_summary() {
     for (const fault::FaultStatus& status : link_->list()) {
         err_.write(host::fault_sentence(status) + "\n");
     }
-    for (const machine::Breakdown& breakdown : board_->machine().breakdowns.list()) {
-        err_.write(fault::breakdown_sentence(breakdown) + "\n");
+    for (const machine::Fault& broken : board_->machine().faults.list()) {
+        err_.write(fault::printer_fault_sentence(broken) + "\n");
     }
 }
 

@@ -1,15 +1,16 @@
 #pragma once
 
-// How rows of the action tables are written. Private to behaviour/actions_*.cpp.
+// How rows of the action tables are written, by this room and by the kinds of machines.
 
 #include <optional>
 #include <string>
+#include <type_traits>
 
 #include "emulator/behaviour/actions.h"
+#include "emulator/machine/machine.h"
 
-namespace fauxboard::behaviour::rows {
+namespace fauxboard::behaviour {
 
-using machine::HeaterId;
 using Args = std::span<const Value>;
 
 inline std::optional<double> given(const Value& v) {
@@ -20,6 +21,9 @@ inline double number_or(const Value& v, double fallback) {
 }
 inline bool flag(const Value& v) {
     return v.is_number() && v.number != 0;
+}
+inline std::string_view text_or_none(const Value& v) {
+    return v.is_text() ? v.text : std::string_view{};
 }
 
 /// A whole number in the range, or nothing; what the line brings may be any double.
@@ -34,10 +38,22 @@ inline void refuse(ActionContext& c, std::string_view what) {
     c.notices.notice(Level::warning, what);
 }
 
-std::span<const ActionInfo> machine_actions();
-std::span<const ActionInfo> device_actions();
-std::span<const ActionInfo> resin_actions();
-std::span<const ActionInfo> transfer_actions();
-std::span<const ActionInfo> fault_actions();
+/// Says that an action is of another kind of machine than the board's.
+void refuse_kind(ActionContext& c, const machine::Kind& wanted);
 
-}  // namespace fauxboard::behaviour::rows
+template <class M>
+M& machine_of(void (*)(M&, ActionContext&, Args));
+
+/// For a row of an action that only one kind of machine knows: `Run` is called with the machine as what it
+/// is, as its first parameter says. On any other machine the action is refused.
+template <auto Run>
+void own(ActionContext& c, Args a) {
+    using M = std::remove_reference_t<decltype(machine_of(+Run))>;
+    if (M* machine = machine::as<M>(c.machine)) {
+        Run(*machine, c, a);
+    } else {
+        refuse_kind(c, M::kind_row());
+    }
+}
+
+}  // namespace fauxboard::behaviour

@@ -4,13 +4,15 @@
 #include <vector>
 
 #include "emulator/behaviour/action_rows.h"
+#include "emulator/behaviour/action_tables.h"
+#include "emulator/behaviour/kind.h"
 
 namespace fauxboard::behaviour {
 namespace {
 
 const std::vector<ActionInfo>& all() {
     static const std::vector<ActionInfo> table = [] {
-        std::vector<ActionInfo> rows{
+        std::vector<ActionInfo> list{
             {"set",
              "",
              "puts values into fields or variables, within their bounds: {\"set\": {\"addons.sound\": "
@@ -24,11 +26,16 @@ const std::vector<ActionInfo>& all() {
              {},
              nullptr},
         };
-        for (const auto part : {rows::machine_actions(), rows::device_actions(), rows::fault_actions(),
-                                rows::resin_actions(), rows::transfer_actions()}) {
-            rows.insert(rows.end(), part.begin(), part.end());
+        const auto append = [&](std::span<const ActionInfo> part) {
+            list.insert(list.end(), part.begin(), part.end());
+        };
+        append(rows::device_actions());
+        append(rows::fault_actions());
+        append(rows::transfer_actions());
+        for (const KindRow* kind : kinds()) {
+            append(kind->actions());
         }
-        return rows;
+        return list;
     }();
     return table;
 }
@@ -49,6 +56,11 @@ const ActionInfo* find_action(std::string_view name) {
     }();
     const auto hit = index.find(name);
     return hit == index.end() ? nullptr : hit->second;
+}
+
+void refuse_kind(ActionContext& c, const machine::Kind& wanted) {
+    refuse(c, "only a machine of the kind " + std::string(wanted.name) +
+                  " can do that; this one is of the kind " + std::string(c.machine.kind().name));
 }
 
 const ActionInfo* find_world_action(std::string_view phrase) {

@@ -1,19 +1,21 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "emulator/behaviour/notice.h"
 #include "emulator/behaviour/value.h"
-#include "emulator/machine/printer.h"
+#include "emulator/machine/machine.h"
 #include "protocol/command.h"
 
 namespace fauxboard::behaviour {
 
 /// What an action may touch.
 struct ActionContext {
-    machine::Printer& printer;
+    machine::Machine& machine;
     std::span<double> variables;  ///< the profile's own
     NoticeSink& notices;
     const protocol::Command* command = nullptr;  ///< the request that is carried out; null in events
@@ -22,12 +24,20 @@ struct ActionContext {
 
 enum class ArgType : std::uint8_t { number, boolean, text };
 
+/// Names that an argument may have, where the machine of the profile has a list of them.
+struct KnownNames {
+    std::string_view what;  ///< "motion procedure": for messages
+    /// Nothing of a machine of another kind, which does not carry the action out anyway.
+    std::optional<std::vector<std::string_view>> (*of)(const machine::MachineConfig&);
+};
+
 struct ArgInfo {
     std::string_view name;
     ArgType type;
     bool required;
     std::string_view help;
-    std::string_view unit = {};  ///< of a number; a scenario writes it behind the value
+    std::string_view unit = {};         ///< of a number; a scenario writes it behind the value
+    const KnownNames* known = nullptr;  ///< of a text: what it must be one of, where a profile is loaded
 };
 
 /// Something a profile, a scenario or a person can do to the machine. One row here is the whole declaration:
@@ -43,7 +53,7 @@ struct ActionInfo {
 
 inline constexpr std::size_t max_action_args = 8;
 
-/// All actions, in the order of the reference.
+/// All actions, in the order of the reference: those of all machines, then each kind's. Names are unique.
 std::span<const ActionInfo> actions();
 const ActionInfo* find_action(std::string_view name);
 /// By name or by phrase.

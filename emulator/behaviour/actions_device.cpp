@@ -1,9 +1,10 @@
-// Leveling, card, job, EEPROM, stepper drivers, the board itself.
+// Card, job, EEPROM, the board itself.
 
 #include <algorithm>
 #include <array>
 
 #include "emulator/behaviour/action_rows.h"
+#include "emulator/behaviour/action_tables.h"
 #include "emulator/behaviour/eeprom.h"
 #include "emulator/behaviour/fields.h"
 
@@ -12,26 +13,8 @@ namespace {
 
 using enum ArgType;
 
-void leveling_adjust(ActionContext& c, Args a) {
-    set_field(c.printer, *find_field("leveling.manual_z"),
-              Value::of(c.printer.leveling.manual_z_mm + a[0].number));
-    machine::MoveRequest request;
-    request.values[2] = a[0].number;
-    request.force_relative = true;
-    request.limits = false;  // the page exists to find out where the bed is
-    c.printer.motion.move(request, c.printer.now(), c.printer.events);
-}
-
-void leveling_enter(ActionContext& c, Args) {
-    c.printer.leveling.manual = true;
-    c.printer.leveling.manual_z_mm = c.printer.config().manual_level_start_mm;
-    if (!c.printer.run("level_start")) {
-        refuse(c, "manual leveling cannot move: no procedure level_start, or the motion queue is full");
-    }
-}
-
 void card_choose(ActionContext& c, Args a) {
-    if (!c.printer.storage.choose(whole(a[0], 0, 1).value_or(-1))) {
+    if (!c.machine.storage.choose(whole(a[0], 0, 1).value_or(-1))) {
         refuse(c, "no such disk; expected 0 (SD card) or 1 (U-disk)");
     }
 }
@@ -41,19 +24,19 @@ void card_enter(ActionContext& c, Args a) {
     if (name.starts_with("file:")) {
         name.remove_prefix(5);
     }
-    if (!c.printer.storage.enter(name)) {
+    if (!c.machine.storage.enter(name)) {
         refuse(c, "no such folder on the card: \"" + std::string(name) + '"');
     }
 }
 
 void job_start(ActionContext& c, Args) {
-    if (!c.printer.start_or_resume_job()) {
+    if (!c.machine.start_or_resume_job()) {
         c.notices.notice(Level::info, "nothing to start: no file is selected, or a job is under way");
     }
 }
 
 void eeprom_save(ActionContext& c, Args a) {
-    if (!save_fields(c.printer, a[0].text)) {
+    if (!save_fields(c.machine, a[0].text)) {
         c.notices.notice(Level::error,
                          "the EEPROM could not be written; the settings live only until power-off");
     }
@@ -62,19 +45,9 @@ void eeprom_save(ActionContext& c, Args a) {
 void board_stall(ActionContext& c, Args a) {
     const double least = std::clamp(a[0].number, 0.0, 60000.0);
     const double most = std::clamp(number_or(a[1], least), least, 60000.0);
-    c.printer.stall(machine::from_seconds((least + (most - least) * c.printer.random()) / 1000));
+    c.machine.loop.stall(machine::from_seconds((least + (most - least) * c.machine.random()) / 1000));
 }
 
-void stepper_select(ActionContext& c, Args a) {
-    const auto motor = whole(a[0], 0, 3);
-    if (!motor) {
-        refuse(c, "no such stepper driver; expected 0 to 3");
-        return;
-    }
-    c.printer.steppers.selected = *motor;
-}
-
-constexpr std::array adjust_args{ArgInfo{"mm", number, true, "up is positive", "mm"}};
 constexpr std::array disk_args{ArgInfo{"disk", number, true, "0 SD card, 1 U-disk"}};
 constexpr std::array folder_args{
     ArgInfo{"name", text, true, "folder, as M20 file: names it; an empty one is the root"}};
@@ -84,52 +57,48 @@ constexpr std::array prefix_args{
     ArgInfo{"fields", text, false, "only fields whose path starts so; all if left out"}};
 constexpr std::array stall_args{ArgInfo{"ms", number, true, "time, ms", "ms"},
                                 ArgInfo{"most_ms", number, false, "upper end of a random range", "ms"}};
-constexpr std::array motor_args{ArgInfo{"motor", number, true, "0 to 3"}};
 
 constexpr std::array table{
-    ActionInfo{
-        "leveling.enter", "", "opens manual leveling: runs the procedure level_start", {}, leveling_enter},
-    ActionInfo{"leveling.adjust", "", "moves Z and the leveling height", adjust_args, leveling_adjust},
     ActionInfo{"card.insert",
                "card in",
                "the SD card is put in",
                {},
-               [](ActionContext& c, Args) { c.printer.insert_card(0); }},
+               [](ActionContext& c, Args) { c.machine.insert_card(0); }},
     ActionInfo{"card.remove",
                "card out",
                "the SD card is taken out",
                {},
-               [](ActionContext& c, Args) { c.printer.remove_card(0); }},
+               [](ActionContext& c, Args) { c.machine.remove_card(0); }},
     ActionInfo{"card.fail",
                "card broken",
                "the SD card is in its slot and cannot be read; card.insert puts a good one in",
                {},
-               [](ActionContext& c, Args) { c.printer.fail_card(0); }},
+               [](ActionContext& c, Args) { c.machine.fail_card(0); }},
     ActionInfo{"udisk.insert",
                "udisk in",
                "the U-disk is put in, where the board has a port for one",
                {},
-               [](ActionContext& c, Args) { c.printer.insert_card(1); }},
+               [](ActionContext& c, Args) { c.machine.insert_card(1); }},
     ActionInfo{"udisk.remove",
                "udisk out",
                "the U-disk is taken out",
                {},
-               [](ActionContext& c, Args) { c.printer.remove_card(1); }},
+               [](ActionContext& c, Args) { c.machine.remove_card(1); }},
     ActionInfo{"udisk.fail",
                "udisk broken",
                "the U-disk is in its port and cannot be read; udisk.insert puts a good one in",
                {},
-               [](ActionContext& c, Args) { c.printer.fail_card(1); }},
+               [](ActionContext& c, Args) { c.machine.fail_card(1); }},
     ActionInfo{"card.mount",
                "",
                "takes the card in the slot, if any, into use (M21)",
                {},
-               [](ActionContext& c, Args) { c.printer.storage.mount(0); }},
+               [](ActionContext& c, Args) { c.machine.storage.mount(0); }},
     ActionInfo{"card.release",
                "",
                "puts the card out of use; it stays in its slot (M22)",
                {},
-               [](ActionContext& c, Args) { c.printer.storage.release(0); }},
+               [](ActionContext& c, Args) { c.machine.storage.release(0); }},
     ActionInfo{"card.choose", "", "chooses SD card or U-disk (M2115)", disk_args, card_choose},
     ActionInfo{"card.enter", "",
                "enters a folder; one that is not there, or outside the card, changes nothing", folder_args,
@@ -138,68 +107,50 @@ constexpr std::array table{
                "",
                "shows the root folder",
                {},
-               [](ActionContext& c, Args) { c.printer.storage.enter_root(); }},
+               [](ActionContext& c, Args) { c.machine.storage.enter_root(); }},
     ActionInfo{"job.select", "", "selects a file; raises file.selected, file.missing or file.unreadable",
-               file_args, [](ActionContext& c, Args a) { c.printer.select_file(a[0].text); }},
+               file_args, [](ActionContext& c, Args a) { c.machine.select_file(a[0].text); }},
     ActionInfo{"job.start", "", "starts the file selected, or resumes the paused job", {}, job_start},
     ActionInfo{
         "job.continue",
         "",
         "the user continues: a job that waits for that goes on, and so does a board that waits without one",
         {},
-        [](ActionContext& c, Args) { c.printer.user_continues(); }},
+        [](ActionContext& c, Args) { c.machine.user_continues(); }},
     ActionInfo{"job.pause",
                "",
                "pauses: finishes the moves planned, parks the head, then raises job.paused; asked again "
                "meanwhile raises job.pausing",
                {},
-               [](ActionContext& c, Args) { c.printer.pause_job(); }},
+               [](ActionContext& c, Args) { c.machine.pause_job(); }},
     ActionInfo{"job.stop",
                "",
                "stops the job; heaters off",
                {},
-               [](ActionContext& c, Args) { c.printer.stop_job(); }},
+               [](ActionContext& c, Args) { c.machine.stop_job(); }},
     ActionInfo{"job.close",
                "",
                "a finished job is no longer shown: the board is idle",
                {},
-               [](ActionContext& c, Args) { c.printer.close_job(); }},
+               [](ActionContext& c, Args) { c.machine.close_job(); }},
     ActionInfo{"job.finish",
                "job finished",
                "the job is at its end",
                {},
-               [](ActionContext& c, Args) { c.printer.finish_job(); }},
-    ActionInfo{
-        "job.recover",
-        "",
-        "takes up the job that a power loss cut off: heats, homes X and Y, goes on where it was; raises "
-        "file.missing when its file is gone",
-        {},
-        [](ActionContext& c, Args) { c.printer.recovery.begin(); }},
-    ActionInfo{"job.forget",
-               "",
-               "drops the job that a power loss cut off",
-               {},
-               [](ActionContext& c, Args) {
-                   if (c.printer.recovery.saved() != nullptr) {
-                       c.printer.recovery.drop();
-                   }
-               }},
+               [](ActionContext& c, Args) { c.machine.finish_job(); }},
     ActionInfo{"job.seek", "", "position in the file (M26)", seek_args,
-               [](ActionContext& c, Args a) { c.printer.seek_job(a[0].number); }},
+               [](ActionContext& c, Args a) { c.machine.seek_job(a[0].number); }},
     ActionInfo{"eeprom.save", "", "stores settings (M500)", prefix_args, eeprom_save},
     ActionInfo{"eeprom.load", "", "takes stored settings back (M501)", prefix_args,
-               [](ActionContext& c, Args a) { load_fields(c.printer, a[0].text); }},
+               [](ActionContext& c, Args a) { load_fields(c.machine, a[0].text); }},
     ActionInfo{"eeprom.defaults", "", "factory settings (M502); the EEPROM itself stays until the next save",
                prefix_args,
-               [](ActionContext& c, Args a) { apply_image(c.printer, c.printer.factory_image, a[0].text); }},
-    ActionInfo{"stepper.select", "", "chooses the closed-loop driver that the stepper fields speak of",
-               motor_args, stepper_select},
+               [](ActionContext& c, Args a) { apply_image(c.machine, c.machine.factory_image, a[0].text); }},
     ActionInfo{"machine.stop",
                "emergency stop",
                "M112: job, heaters and motors off at once",
                {},
-               [](ActionContext& c, Args) { c.printer.emergency_stop(); }},
+               [](ActionContext& c, Args) { c.machine.emergency_stop(); }},
     ActionInfo{"board.stall", "", "the main loop, and with it the status wheel, stands still for a time",
                stall_args, board_stall},
     ActionInfo{"board.reset",

@@ -6,22 +6,23 @@
 #include <vector>
 
 #include "emulator/behaviour/action_rows.h"
+#include "emulator/behaviour/action_tables.h"
 #include "emulator/behaviour/nearest.h"
 
 namespace fauxboard::behaviour::rows {
 namespace {
 
 using enum ArgType;
-using machine::BreakdownInfo;
-using machine::BreakdownParameter;
-using machine::BreakdownUnit;
+using machine::FaultInfo;
+using machine::FaultParameter;
+using machine::FaultUnit;
 
-const BreakdownInfo* find(ActionContext& c, std::string_view name) {
-    const BreakdownInfo* info = machine::find_breakdown(name);
+const FaultInfo* find(ActionContext& c, std::string_view name) {
+    const FaultInfo* info = machine::find_fault(name);
     if (info == nullptr) {
         std::vector<std::string_view> names;
-        for (const BreakdownInfo& each : machine::breakdowns()) {
-            names.push_back(each.name);
+        for (const FaultInfo* each : machine::fault_rows()) {
+            names.push_back(each->name);
         }
         const std::string_view near = nearest(name, names);
         refuse(c, "unknown fault of the printer \"" + std::string(name.substr(0, 60)) + '"' +
@@ -32,13 +33,13 @@ const BreakdownInfo* find(ActionContext& c, std::string_view name) {
 
 /// The parameter that takes words, or the one that takes a number, into the request. False, and said why,
 /// when there is none or the value is none of it.
-bool take_part(ActionContext& c, machine::BreakdownRequest& request, const Value& v, bool words) {
+bool take_part(ActionContext& c, machine::FaultRequest& request, const Value& v, bool words) {
     if (v.none()) {
         return true;
     }
     const auto& parameters = request.info->parameters;
-    const auto hit = std::find_if(parameters.begin(), parameters.end(), [&](const BreakdownParameter& p) {
-        return (p.unit == BreakdownUnit::choice) == words;
+    const auto hit = std::find_if(parameters.begin(), parameters.end(), [&](const FaultParameter& p) {
+        return (p.unit == FaultUnit::choice) == words;
     });
     if (hit == parameters.end()) {
         refuse(c, "the fault " + std::string(request.info->name) + " has no " + (words ? "part" : "value") +
@@ -63,27 +64,27 @@ bool take_part(ActionContext& c, machine::BreakdownRequest& request, const Value
 }
 
 void fault_set(ActionContext& c, Args a) {
-    const BreakdownInfo* info = find(c, a[0].text);
+    const FaultInfo* info = find(c, a[0].text);
     if (info == nullptr) {
         return;
     }
-    machine::BreakdownRequest request = machine::default_request(*info);
+    machine::FaultRequest request = machine::default_request(*info);
     if (!take_part(c, request, a[1], true) || !take_part(c, request, a[2], false)) {
         return;
     }
     if (a[3].is_number()) {
         request.length = machine::from_seconds(std::clamp(a[3].number, 1e-6, 1e9));
     }
-    if (c.printer.breakdowns.add(c.printer.now(), request) == 0) {
-        refuse(c, "no room for more faults; clear some first");
+    if (c.machine.faults.add(c.machine.now(), request) == 0) {
+        refuse(c, c.machine.faults.refusal(*info));
     }
 }
 
 void fault_clear(ActionContext& c, Args a) {
     if (a[0].none()) {
-        c.printer.breakdowns.clear();
-    } else if (const BreakdownInfo* info = find(c, a[0].text)) {
-        c.printer.breakdowns.remove(info->id);
+        c.machine.faults.clear();
+    } else if (const FaultInfo* info = find(c, a[0].text)) {
+        c.machine.faults.remove(*info);
     }
 }
 

@@ -3,16 +3,13 @@
 #include <array>
 
 #include "emulator/behaviour/action_rows.h"
+#include "emulator/behaviour/action_tables.h"
 
 namespace fauxboard::behaviour::rows {
 namespace {
 
 using enum ArgType;
 using machine::Transfer;
-
-std::string_view words(const Value& v) {
-    return v.is_text() ? v.text : std::string_view{};
-}
 
 /// The place in a file that a request names; beyond every file when it is none.
 std::uint64_t place(const Value& v) {
@@ -22,37 +19,37 @@ std::uint64_t place(const Value& v) {
 }
 
 /// The file that must not change: the one being printed.
-std::string_view in_use(const machine::Printer& p) {
+std::string_view in_use(const machine::Machine& p) {
     return p.job.active() && p.job.volume() == p.storage.chosen() ? std::string_view(p.job.path())
                                                                   : std::string_view{};
 }
 
 void upload(ActionContext& c, Args a) {
-    Transfer& transfer = c.printer.transfer;
-    if (!transfer.upload(c.printer.now(), transfer.asker, words(a[0]), in_use(c.printer)) &&
-        transfer.outcome == Transfer::Outcome::write_failed && c.printer.storage.fixed_volume() != nullptr) {
+    Transfer& transfer = c.machine.transfer;
+    if (!transfer.upload(c.machine.now(), transfer.asker, text_or_none(a[0]), in_use(c.machine)) &&
+        transfer.outcome == Transfer::Outcome::write_failed && c.machine.storage.fixed_volume() != nullptr) {
         refuse(c, "the profile's own card can be read only; give a folder as the card with --sd");
     }
 }
 
 void finish(ActionContext& c, Args) {
-    c.printer.transfer.finish(c.printer.now(), c.printer.transfer.asker, in_use(c.printer));
+    c.machine.transfer.finish(c.machine.now(), c.machine.transfer.asker, in_use(c.machine));
 }
 
 void download(ActionContext& c, Args a) {
-    c.printer.transfer.download(c.printer.now(), c.printer.transfer.asker, words(a[0]));
+    c.machine.transfer.download(c.machine.now(), c.machine.transfer.asker, text_or_none(a[0]));
 }
 
 void block(ActionContext& c, Args a) {
-    Transfer& transfer = c.printer.transfer;
+    Transfer& transfer = c.machine.transfer;
     transfer.last_block.size = 0;
-    if (!a[0].is_number() || transfer.seek(c.printer.now(), transfer.asker, place(a[0]))) {
-        transfer.block(c.printer.now(), transfer.asker, transfer.last_block.room, transfer.last_block.size);
+    if (!a[0].is_number() || transfer.seek(c.machine.now(), transfer.asker, place(a[0]))) {
+        transfer.block(c.machine.now(), transfer.asker, transfer.last_block.room, transfer.last_block.size);
     }
 }
 
 void remove(ActionContext& c, Args a) {
-    c.printer.transfer.remove(words(a[0]));
+    c.machine.transfer.remove(text_or_none(a[0]));
 }
 
 constexpr std::array name_args{ArgInfo{"name", text, false, "of the file, from the root of the disk on"}};
@@ -72,7 +69,7 @@ constexpr std::array table{
         "",
         "closes what is open (M22); of an upload nothing remains",
         {},
-        [](ActionContext& c, Args) { c.printer.transfer.close(c.printer.now(), c.printer.transfer.asker); }},
+        [](ActionContext& c, Args) { c.machine.transfer.close(c.machine.now(), c.machine.transfer.asker); }},
 };
 
 }  // namespace

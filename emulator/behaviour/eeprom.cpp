@@ -28,8 +28,8 @@ void each_line(std::string_view image, F&& use) {
     }
 }
 
-void append_value(std::string& out, const Field& field, const machine::Printer& printer) {
-    const Value value = field.get(printer);
+void append_value(std::string& out, const Field& field, const machine::Machine& machine) {
+    const Value value = field.get(machine);
     if (value.none()) {
         return;  // of a part that this machine has not
     }
@@ -65,8 +65,8 @@ std::uint64_t note_of(const Value& value) {
 }
 
 /// Whether the image says all of it already.
-bool written(machine::Printer& printer, std::string_view prefix) {
-    const std::vector<std::uint64_t>& notes = printer.eeprom_image.notes();
+bool written(machine::Machine& machine, std::string_view prefix) {
+    const std::vector<std::uint64_t>& notes = machine.eeprom_image.notes();
     const std::vector<const Field*>& stored = stored_fields();
     if (notes.empty()) {
         return false;
@@ -75,7 +75,7 @@ bool written(machine::Printer& printer, std::string_view prefix) {
         if (!prefix.empty() && !stored[i]->path.starts_with(prefix)) {
             continue;
         }
-        const Value value = stored[i]->get(printer);
+        const Value value = stored[i]->get(machine);
         if (value.is_text() || note_of(value) != notes[i]) {
             return false;
         }
@@ -83,8 +83,8 @@ bool written(machine::Printer& printer, std::string_view prefix) {
     return true;
 }
 
-void write(machine::Printer& printer, std::string_view prefix) {
-    machine::EepromImage& image = printer.eeprom_image;
+void write(machine::Machine& machine, std::string_view prefix) {
+    machine::EepromImage& image = machine.eeprom_image;
     const std::vector<const Field*>& stored = stored_fields();
     std::string& draft = image.draft();
     draft.clear();
@@ -101,9 +101,9 @@ void write(machine::Printer& printer, std::string_view prefix) {
     }
     for (std::size_t i = 0; i < stored.size(); ++i) {
         if (stored[i]->path.starts_with(prefix)) {
-            append_value(draft, *stored[i], printer);
+            append_value(draft, *stored[i], machine);
             if (!notes.empty()) {
-                notes[i] = note_of(stored[i]->get(printer));
+                notes[i] = note_of(stored[i]->get(machine));
             }
         }
     }
@@ -112,39 +112,39 @@ void write(machine::Printer& printer, std::string_view prefix) {
 
 }  // namespace
 
-std::string make_image(const machine::Printer& printer) {
+std::string make_image(const machine::Machine& machine) {
     std::string image;
     for (const Field* field : stored_fields()) {
-        append_value(image, *field, printer);
+        append_value(image, *field, machine);
     }
     return image;
 }
 
-bool save_fields(machine::Printer& printer, std::string_view prefix) {
-    if (!written(printer, prefix)) {
-        write(printer, prefix);
+bool save_fields(machine::Machine& machine, std::string_view prefix) {
+    if (!written(machine, prefix)) {
+        write(machine, prefix);
     }
-    return printer.eeprom_store() == nullptr || printer.eeprom_store()->save(printer.eeprom_image);
+    return machine.eeprom_store() == nullptr || machine.eeprom_store()->save(machine.eeprom_image);
 }
 
-void load_fields(machine::Printer& printer, std::string_view prefix) {
-    apply_image(printer, printer.eeprom_image, prefix);
+void load_fields(machine::Machine& machine, std::string_view prefix) {
+    apply_image(machine, machine.eeprom_image, prefix);
 }
 
-void apply_image(machine::Printer& printer, std::string_view image, std::string_view prefix) {
+void apply_image(machine::Machine& machine, std::string_view image, std::string_view prefix) {
     each_line(image, [&](std::string_view path, std::string_view text) {
         const Field* field = find_field(path);
         if (field == nullptr || !field->stored || !path.starts_with(prefix)) {
             return;
         }
         if (field->type == FieldType::text) {
-            set_field(printer, *field, Value::of(text));
+            set_field(machine, *field, Value::of(text));
             return;
         }
         double number = 0;
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
         if (error == std::errc{} && end == text.data() + text.size()) {
-            set_field(printer, *field, Value::of(number));
+            set_field(machine, *field, Value::of(number));
         }
     });
 }

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "emulator/machine/printer.h"
+#include "emulator/machine/machine.h"
 
 namespace fauxboard::behaviour {
 
@@ -12,17 +12,17 @@ namespace fauxboard::behaviour {
 
 /// Writes the stored fields whose path starts with `prefix` into the image, the rest of it stays, and hands
 /// it to the store. False when the store failed; the image in memory has the new values all the same.
-bool save_fields(machine::Printer& printer, std::string_view prefix);
+bool save_fields(machine::Machine& machine, std::string_view prefix);
 
 /// Takes the fields whose path starts with `prefix` from the image; fields it does not hold stay as they are,
 /// unreadable values are passed over.
-void load_fields(machine::Printer& printer, std::string_view prefix);
+void load_fields(machine::Machine& machine, std::string_view prefix);
 
 /// The image of the machine as it stands: what `factory defaults` means right after the profile's defaults
 /// were applied.
-std::string make_image(const machine::Printer& printer);
+std::string make_image(const machine::Machine& machine);
 
 /// Applies an image as if it were loaded, without touching the EEPROM (M502).
-void apply_image(machine::Printer& printer, std::string_view image, std::string_view prefix);
+void apply_image(machine::Machine& machine, std::string_view image, std::string_view prefix);
 
 }  // namespace fauxboard::behaviour

@@ -1,16 +1,15 @@
 #pragma once
 
-// How rows of the field tables are written. Private to behaviour/fields_*.cpp.
+// How rows of the field tables are written, by this room and by the kinds of machines.
 
 #include <cmath>
 #include <string>
 #include <type_traits>
 
 #include "emulator/behaviour/fields.h"
+#include "emulator/machine/machine.h"
 
-namespace fauxboard::behaviour::rows {
-
-using machine::Printer;
+namespace fauxboard::behaviour {
 
 template <class T>
 Value as_value(const T& v) {
@@ -36,63 +35,85 @@ void assign(T& slot, const Value& v) {
     }
 }
 
-/// A value that simply lies in the machine's state; `ref` gives a reference to it.
-template <class F>
-constexpr Field plain(std::string_view path, FieldType type, std::string_view unit, double min, double max,
-                      std::string_view help, F) {
-    return {path,
-            type,
-            unit,
-            min,
-            max,
-            false,
-            help,
-            [](const Printer& p) { return as_value(F{}(p)); },
-            [](Printer& p, const Value& v) { assign(F{}(p), v); }};
-}
+/// Rows of machines of the type M: machine::Machine for what every one has, else the machine of a kind. On a
+/// machine of another kind such a field is nothing.
+template <class M>
+struct FieldRows {
+    /// A value that is only shown; `get` computes it.
+    template <class Get>
+    constexpr Field shown(std::string_view path, FieldType type, std::string_view unit, std::string_view help,
+                          Get) const {
+        return {path, type, unit, 0, 0, false, help, getter<Get>, nullptr};
+    }
 
-/// The same, kept in the EEPROM.
-template <class F>
-constexpr Field stored(std::string_view path, FieldType type, std::string_view unit, double min, double max,
-                       std::string_view help, F f) {
-    Field row = plain(path, type, unit, min, max, help, f);
-    row.stored = true;
-    return row;
-}
+    /// A value that is shown by `get` and changed by `set`, a call of the machine.
+    template <class Get, class Set>
+    constexpr Field handled(std::string_view path, FieldType type, std::string_view unit, double min,
+                            double max, std::string_view help, Get, Set) const {
+        return {path,
+                type,
+                unit,
+                min,
+                max,
+                false,
+                help,
+                getter<Get>,
+                [](machine::Machine& machine, const Value& v) {
+                    if (M* own = of(machine)) {
+                        Set{}(*own, v);
+                    }
+                }};
+    }
 
-/// A value that is only shown; `get` computes it.
-template <class F>
-constexpr Field shown(std::string_view path, FieldType type, std::string_view unit, std::string_view help,
-                      F) {
-    return {path, type, unit, 0, 0, false, help, [](const Printer& p) { return as_value(F{}(p)); }, nullptr};
-}
+    /// A value that simply lies in the machine's state; `place` gives a reference to it.
+    template <class Place>
+    constexpr Field plain(std::string_view path, FieldType type, std::string_view unit, double min,
+                          double max, std::string_view help, Place) const {
+        return {path,
+                type,
+                unit,
+                min,
+                max,
+                false,
+                help,
+                getter<Place>,
+                [](machine::Machine& machine, const Value& v) {
+                    if (M* own = of(machine)) {
+                        assign(Place{}(*own), v);
+                    }
+                }};
+    }
 
-/// A value that is shown by `get` and changed by `set`, a call of the machine.
-template <class Get, class Set>
-constexpr Field handled(std::string_view path, FieldType type, std::string_view unit, double min, double max,
-                        std::string_view help, Get, Set) {
-    return {path,
-            type,
-            unit,
-            min,
-            max,
-            false,
-            help,
-            [](const Printer& p) { return as_value(Get{}(p)); },
-            [](Printer& p, const Value& v) { Set{}(p, v); }};
-}
+    /// The same, kept in the EEPROM.
+    template <class Place>
+    constexpr Field stored(std::string_view path, FieldType type, std::string_view unit, double min,
+                           double max, std::string_view help, Place place) const {
+        Field row = plain(path, type, unit, min, max, help, place);
+        row.stored = true;
+        return row;
+    }
 
-std::span<const Field> machine_fields();
-std::span<const Field> settings_fields();
-std::span<const Field> device_fields();
-std::span<const Field> resin_fields();
-std::span<const Field> transfer_fields();
-std::span<const Field> fault_fields();
+  private:
+    template <class T>
+    static auto of(T& machine) {
+        if constexpr (std::is_same_v<M, machine::Machine>) {
+            return &machine;
+        } else {
+            return machine::as<M>(machine);
+        }
+    }
 
-}  // namespace fauxboard::behaviour::rows
+    template <class Get>
+    static Value getter(const machine::Machine& machine) {
+        const M* own = of(machine);
+        return own != nullptr ? as_value(Get{}(*own)) : Value{};
+    }
+};
 
-// A lambda that names a place in the printer, for plain() and stored().
+}  // namespace fauxboard::behaviour
+
+// A lambda that names a place in the machine, for plain() and stored().
 #define FAUXBOARD_PLACE(member) \
-    [](auto& p) -> auto& {      \
-        return p.member;        \
+    [](auto& m) -> auto& {      \
+        return m.member;        \
     }

@@ -6,7 +6,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "emulator/behaviour/field_rows.h"
+#include "emulator/behaviour/field_tables.h"
+#include "emulator/behaviour/kind.h"
 #include "emulator/behaviour/nearest.h"
 
 namespace fauxboard::behaviour {
@@ -14,12 +15,17 @@ namespace {
 
 const std::vector<Field>& all() {
     static const std::vector<Field> table = [] {
-        std::vector<Field> rows;
-        for (const auto part : {rows::machine_fields(), rows::settings_fields(), rows::device_fields(),
-                                rows::fault_fields(), rows::resin_fields(), rows::transfer_fields()}) {
-            rows.insert(rows.end(), part.begin(), part.end());
+        std::vector<Field> list;
+        const auto append = [&](std::span<const Field> part) {
+            list.insert(list.end(), part.begin(), part.end());
+        };
+        append(rows::device_fields());
+        append(rows::transfer_fields());
+        append(rows::fault_fields());
+        for (const KindRow* kind : kinds()) {
+            append(kind->fields());
         }
-        return rows;
+        return list;
     }();
     return table;
 }
@@ -64,24 +70,24 @@ std::string_view nearest_field(std::string_view path) {
     return nearest(path, names);
 }
 
-SetResult set_field(machine::Printer& printer, const Field& field, const Value& value) {
+SetResult set_field(machine::Machine& machine, const Field& field, const Value& value) {
     if (field.set == nullptr) {
         return SetResult::refused;
     }
     if (field.type == FieldType::text) {
-        if (!value.is_text() || field.get(printer).none()) {
+        if (!value.is_text() || field.get(machine).none()) {
             return SetResult::refused;
         }
         const auto room = static_cast<std::size_t>(field.max);
         const bool cut = value.text.size() > room;
-        field.set(printer, Value::of(value.text.substr(0, room)));
+        field.set(machine, Value::of(value.text.substr(0, room)));
         return cut ? SetResult::clamped : SetResult::done;
     }
-    if (!value.is_number() || !std::isfinite(value.number) || field.get(printer).none()) {
+    if (!value.is_number() || !std::isfinite(value.number) || field.get(machine).none()) {
         return SetResult::refused;
     }
     const double inside = std::clamp(value.number, field.min, field.max);
-    field.set(printer, Value::of(inside));
+    field.set(machine, Value::of(inside));
     return inside == value.number ? SetResult::done : SetResult::clamped;
 }
 

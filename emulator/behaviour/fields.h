@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "emulator/behaviour/value.h"
-#include "emulator/machine/printer.h"
+#include "emulator/machine/machine.h"
 
 namespace fauxboard::behaviour {
 
@@ -22,11 +22,11 @@ struct Field {
     double max;
     bool stored;  ///< part of the EEPROM image
     std::string_view help;
-    Value (*get)(const machine::Printer&);         ///< nothing on a machine without this part
-    void (*set)(machine::Printer&, const Value&);  ///< null: read only
+    Value (*get)(const machine::Machine&);         ///< nothing on a machine of another kind
+    void (*set)(machine::Machine&, const Value&);  ///< null: read only
 };
 
-/// Every field, grouped by part, in the order of the reference.
+/// Every field in the order of the reference: those of all machines, then each kind's. Paths are unique.
 std::span<const Field> fields();
 
 /// The field at `path`, or null.
@@ -37,7 +37,7 @@ std::string_view nearest_field(std::string_view path);
 
 enum class SetResult : std::uint8_t { done, clamped, refused };
 /// Puts `value` into the field, within its bounds. Refused: read only, wrong kind, not a finite
-/// number, or no such part in this machine.
-SetResult set_field(machine::Printer& printer, const Field& field, const Value& value);
+/// number, or a field of another kind of machine.
+SetResult set_field(machine::Machine& machine, const Field& field, const Value& value);
 
 }  // namespace fauxboard::behaviour

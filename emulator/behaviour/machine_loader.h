@@ -7,11 +7,9 @@
 
 namespace fauxboard::behaviour {
 
-/// Reads the profile's `machine` section over the defaults in `machine`; problems go to `findings`.
-void load_machine(const Json& node, const std::string& pointer, Findings& findings,
-                  machine::MachineConfig& machine);
-
-/// Reads the profile's `identity` section.
+/// The keys of a profile's `machine` that every kind has.
+void load_common(ObjectReader& reader, Findings& findings, machine::MachineConfig& machine);
+void load_card(const Json& node, const std::string& pointer, Findings& findings, machine::CardConfig& out);
 void load_identity(const Json& node, const std::string& pointer, Findings& findings,
                    machine::Identity& identity);
 

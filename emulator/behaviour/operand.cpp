@@ -105,7 +105,7 @@ Value Operand::evaluate_other(const Scope& scope) const {
         case Kind::text:
             return Value::of(std::string_view{text});
         case Kind::field:
-            return field->get(scope.printer);
+            return field->get(scope.machine);
         case Kind::variable:
             return Value::of(scope.variables[variable]);
         case Kind::entry_name:

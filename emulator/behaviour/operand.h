@@ -10,14 +10,14 @@
 
 #include "emulator/behaviour/fields.h"
 #include "emulator/behaviour/value.h"
-#include "emulator/machine/printer.h"
+#include "emulator/machine/machine.h"
 #include "protocol/command.h"
 
 namespace fauxboard::behaviour {
 
 /// What an expression of a profile can see while it is evaluated.
 struct Scope {
-    const machine::Printer& printer;
+    const machine::Machine& machine;
     std::span<const double> variables;           ///< the profile's own, one set per board
     const protocol::Command* command = nullptr;  ///< the request; null in events and on the schedule
     const machine::CardEntry* entry = nullptr;   ///< inside `for_each`
@@ -72,7 +72,7 @@ struct Operand {
     Value evaluate(const Scope& scope) const {
         // What rules and frames are mostly made of, without a call.
         if (kind == Kind::field) {
-            return field->get(scope.printer);
+            return field->get(scope.machine);
         }
         if (kind == Kind::number) {
             return Value::of(number);

@@ -12,6 +12,7 @@
 #include "emulator/behaviour/frame_template.h"
 #include "emulator/behaviour/rules.h"
 #include "emulator/behaviour/source.h"
+#include "emulator/machine/kind.h"
 #include "emulator/machine/machine_config.h"
 #include "protocol/framing.h"
 
@@ -133,7 +134,12 @@ class Profile {
     std::vector<VariableInfo> variables;
     std::vector<ActionCall> defaults;  ///< put into the machine at every power-on, before the EEPROM
     std::shared_ptr<const machine::MachineConfig> machine;
-    std::array<std::vector<Rule>, machine::event_count> events;
+    const machine::Kind* kind = nullptr;  ///< of machine: what `machine` is a configuration of
+    /// Rules for an event of the kind, by machine::event_index().
+    std::vector<std::vector<Rule>> events;
+    const std::vector<Rule>& rules_for(machine::EventId event) const {
+        return events[machine::event_index(*kind, event)];
+    }
 
     /// Rules for a request on the main line and the network, or of the USB host; null when there are none.
     const std::vector<Rule>* rules_for(Channel channel, const protocol::Command& command) const {

@@ -2,6 +2,7 @@
 #include <array>
 #include <utility>
 
+#include "emulator/behaviour/kind.h"
 #include "emulator/behaviour/machine_loader.h"
 #include "emulator/behaviour/nearest.h"
 #include "emulator/behaviour/profile.h"
@@ -35,6 +36,7 @@ class Loader {
     void load_slot(const Json& node, const std::string& pointer);
     std::vector<std::size_t> watch(const Json& node, const std::string& pointer, std::size_t frame);
     void load_requests(const Json& node, const std::string& pointer, Profile::RequestTable& table);
+    void load_machine(ObjectReader& root);
     void load_events(const Json& node, const std::string& pointer);
     void load_defaults(const Json& node, const std::string& pointer);
 
@@ -45,7 +47,7 @@ class Loader {
     FrameIndex frame_index_;
     protocol::FrameStyle style_{};  ///< of frames that do not say theirs
     std::shared_ptr<Profile> profile_ = std::make_shared<Profile>();
-    std::shared_ptr<machine::MachineConfig> machine_ = std::make_shared<machine::MachineConfig>();
+    std::shared_ptr<machine::MachineConfig> machine_;
 };
 
 void Loader::load_head(ObjectReader& root) {
@@ -332,13 +334,39 @@ void Loader::load_requests(const Json& node, const std::string& pointer, Profile
     }
 }
 
+/// The machine's kind, which all that follows depends on, and its configuration.
+void Loader::load_machine(ObjectReader& root) {
+    const Json nothing = Json::object();
+    const Json* node = root.get("machine");
+    const std::string pointer = root.pointer("machine");
+    const KindRow& kind = kind_of(node != nullptr ? *node : nothing, pointer, findings_);
+    profile_->kind = &kind.machine;
+    machine_ = kind.config();
+    if (node != nullptr) {
+        ObjectReader reader(*node, pointer, findings_);
+        load_common(reader, findings_, *machine_);
+        kind.load(reader, findings_, *machine_);
+        reader.get("kind");  // looked at already
+        // A base may say what only another kind has: that is checked, and has no effect.
+        for (const KindRow* other : kinds()) {
+            if (other != &kind) {
+                other->load(reader, findings_, *other->config());
+            }
+        }
+        reader.finish();
+    }
+}
+
 void Loader::load_events(const Json& node, const std::string& pointer) {
     RuleCompiler compiler(findings_, names_, frame_index_, *machine_);
     ObjectReader reader(node, pointer, findings_);
-    for (const machine::EventInfo& event : machine::events()) {
-        if (const Json* rules = reader.get(event.name)) {
-            profile_->events[static_cast<std::size_t>(event.id)] =
-                compiler.rules(*rules, reader.pointer(event.name));
+    for (const machine::EventId event : machine::events()) {
+        if (const Json* said = reader.get(event->name)) {
+            std::vector<Rule> rules = compiler.rules(*said, reader.pointer(event->name));
+            // What a base says of another kind's events is checked, and has no effect.
+            if (machine::has_event(*profile_->kind, event)) {
+                profile_->events[machine::event_index(*profile_->kind, event)] = std::move(rules);
+            }
         }
     }
     reader.finish();
@@ -358,10 +386,9 @@ std::shared_ptr<const Profile> Loader::load() {
             load(*node, root.pointer(key));
         }
     };
+    load_machine(root);
     section("identity",
             [&](const Json& n, const std::string& p) { load_identity(n, p, findings_, machine_->identity); });
-    section("machine",
-            [&](const Json& n, const std::string& p) { load_machine(n, p, findings_, *machine_); });
     section("variables", [&](const Json& n, const std::string& p) { load_variables(n, p); });
     request_names_ = names_;
     request_names_.request = true;
@@ -382,6 +409,7 @@ std::shared_ptr<const Profile> Loader::load() {
             [&](const Json& n, const std::string& p) { load_requests(n, p, profile_->requests); });
     section("host_requests",
             [&](const Json& n, const std::string& p) { load_requests(n, p, profile_->host_requests); });
+    profile_->events.resize(machine::events_of(*profile_->kind).size());
     section("events", [&](const Json& n, const std::string& p) { load_events(n, p); });
     root.finish();
     if (!findings_.problems.empty()) {

@@ -1,5 +1,7 @@
 #include "emulator/behaviour/rule_compiler.h"
 
+#include <algorithm>
+
 #include <array>
 
 #include "emulator/behaviour/nearest.h"
@@ -199,7 +201,11 @@ void RuleCompiler::call(const std::string& name, const Json* args, const std::st
         }
     }
     reader.finish();
-    check_procedure(compiled, pointer);
+    for (std::size_t i = 0; i < info->args.size(); ++i) {
+        if (info->args[i].known != nullptr) {
+            check_name(*info->args[i].known, compiled.args[i], pointer);
+        }
+    }
     out.push_back(std::move(compiled));
 }
 
@@ -211,18 +217,14 @@ void RuleCompiler::argument(const ArgInfo& info, const Json& node, const std::st
     }
 }
 
-void RuleCompiler::check_procedure(const ActionCall& call, const std::string& pointer) {
-    if (call.info->name != "motion.run" || call.args[0].kind != Operand::Kind::text) {
+void RuleCompiler::check_name(const KnownNames& known, const Operand& given, const std::string& pointer) {
+    if (given.kind != Operand::Kind::text) {
         return;
     }
-    const auto& procedures = machine_.motion.procedures;
-    if (procedures.find(call.args[0].text) == procedures.end()) {
-        std::vector<std::string_view> names;
-        for (const auto& [name, steps] : procedures) {
-            names.emplace_back(name);
-        }
-        findings_.add(pointer, "unknown motion procedure \"" + call.args[0].text + '"',
-                      std::string(nearest(call.args[0].text, names)));
+    const auto names = known.of(machine_);
+    if (names && std::find(names->begin(), names->end(), given.text) == names->end()) {
+        findings_.add(pointer, "unknown " + std::string(known.what) + " \"" + given.text + '"',
+                      std::string(nearest(given.text, *names)));
     }
 }
 

@@ -46,9 +46,9 @@ void assign(const ActionCall& call, const Scope& scope, const std::vector<Variab
         return;
     }
     if (call.add) {
-        value.number += call.field->get(scope.printer).number;
+        value.number += call.field->get(scope.machine).number;
     }
-    switch (set_field(context.printer, *call.field, value)) {
+    switch (set_field(context.machine, *call.field, value)) {
         case SetResult::done:
             break;
         case SetResult::clamped:

@@ -6,6 +6,7 @@
 
 #include "emulator/behaviour/eeprom.h"
 #include "emulator/board/sizes.h"
+#include "emulator/machine/event_rows.h"
 #include "protocol/command.h"
 #include "protocol/host_line.h"
 
@@ -41,7 +42,7 @@ bool is_code(std::string_view body) {
 Board::Board(std::shared_ptr<const behaviour::Profile> profile, machine::Services services, Options options)
     : profile_(std::move(profile)),
       options_(options),
-      machine_(profile_->machine, services, options.seed),
+      machine_(profile_->kind->make(profile_->machine, services, options.seed)),
       wheel_(*profile_),
       inbox_(inbox_bytes, profile_->line.queue_lines),
       outbox_(outbox_bytes, outbox_messages),
@@ -50,7 +51,7 @@ Board::Board(std::shared_ptr<const behaviour::Profile> profile, machine::Service
     port(Channel::main).connected = true;
     port(Channel::main).output = OutputBuffer(first_output);
     if (services.eeprom != nullptr) {
-        machine_.eeprom_image = services.eeprom->load().value_or(std::string{});
+        machine_->eeprom_image = services.eeprom->load().value_or(std::string{});
     }
     for (const behaviour::VariableInfo& info : profile_->variables) {
         variables_.push_back(info.initial);
@@ -60,7 +61,7 @@ Board::Board(std::shared_ptr<const behaviour::Profile> profile, machine::Service
 Board::~Board() = default;
 
 Scope Board::scope(const protocol::Command* command) const {
-    return {machine_, variables_, command, nullptr, 0};
+    return {*machine_, variables_, command, nullptr, 0};
 }
 
 void Board::notice(Level level, std::string_view text) {
@@ -81,20 +82,20 @@ void Board::power_on(SimTime now) {
     for (Port& each : ports_) {
         each.splitter.reset();
     }
-    machine_.power_on(now);
+    machine_->power_on(now);
     for (std::size_t i = 0; i < variables_.size(); ++i) {
         variables_[i] = profile_->variables[i].initial;
     }
-    ActionContext context{machine_, variables_, *this};
+    ActionContext context{*machine_, variables_, *this};
     for (const behaviour::ActionCall& call : profile_->defaults) {
         behaviour::run_action(call, scope(), profile_->variables, context);
     }
-    machine_.factory_image = behaviour::make_image(machine_);
-    if (machine_.eeprom_image.empty()) {
-        machine_.eeprom_image = machine_.factory_image;
+    machine_->factory_image = behaviour::make_image(*machine_);
+    if (machine_->eeprom_image.empty()) {
+        machine_->eeprom_image = machine_->factory_image;
     }
-    behaviour::load_fields(machine_, {});
-    machine_.events.clear();  // what setting up raised is nobody's business
+    behaviour::load_fields(*machine_, {});
+    machine_->events.clear();  // what setting up raised is nobody's business
     wheel_.power_on(now);
     for (const Send& entry : profile_->boot) {
         send(entry, scope());
@@ -102,6 +103,11 @@ void Board::power_on(SimTime now) {
 }
 
 void Board::reload(std::shared_ptr<const behaviour::Profile> profile) {
+    if (profile->kind != &machine_->kind()) {
+        notice(Level::warning,
+               "the changed profile is of another kind of machine: it takes a new start of the program");
+        return;
+    }
     std::vector<double> variables;
     for (const behaviour::VariableInfo& info : profile->variables) {
         const auto same =
@@ -150,7 +156,7 @@ void Board::tell_received(Channel channel, std::string_view line, Verdict verdic
 void Board::take_line(Channel channel, std::string_view line) {
     ++counters_.lines_received;
     if (channel == Channel::host) {
-        machine_.hear_host(time_);
+        machine_->hear_host(time_);
         take_host_line(line);
         return;
     }
@@ -161,7 +167,7 @@ void Board::take_line(Channel channel, std::string_view line) {
     Verdict verdict = Verdict::accepted;
     const bool paced = options_.pacing && channel == Channel::main;
     const bool waits = paced ? ticks : port(channel).output.size() >= output_limit;
-    if (machine_.hung()) {
+    if (machine_->hung()) {
         ++counters_.requests_lost;
         verdict = Verdict::queue_full;
     } else if (bad) {
@@ -173,7 +179,7 @@ void Board::take_line(Channel channel, std::string_view line) {
     }
     tell_received(channel, line, verdict);
     if (verdict == Verdict::accepted && !waits) {
-        machine_.advance(time_);
+        machine_->advance(time_);
         execute(channel, body);
         settle();
         run_host();
@@ -199,13 +205,13 @@ void Board::execute(Channel channel, std::string_view body) {
     const std::vector<Rule>* rules = profile_->rules_for(channel, command);
     asker_ = channel == Channel::network ? channel : Channel::main;
     if (rules == nullptr) {
-        if (channel == Channel::host && machine_.host.run_code()) {
+        if (channel == Channel::host && machine_->host_side().run_code()) {
             return;
         }
         ++counters_.unknown_codes;
         report_unknown(command.word, "is not in the profile");
         if (channel == Channel::host) {
-            machine_.events.raise(machine::EventId::host_unknown);
+            machine_->events.raise(machine::event("host.unknown"));
         }
     } else if (!run_rules(*rules, &command)) {
         ++counters_.unmatched;
@@ -233,7 +239,7 @@ bool Board::run_rules(const std::vector<Rule>& rules, const protocol::Command* c
 }
 
 void Board::run_rule(const Rule& rule, const Scope& here) {
-    ActionContext context{machine_, variables_, *this};
+    ActionContext context{*machine_, variables_, *this};
     for (const behaviour::ActionCall& call : rule.actions) {
         behaviour::run_action(call, here, profile_->variables, context);
     }
@@ -249,17 +255,17 @@ void Board::run_rule(const Rule& rule, const Scope& here) {
 /// After anything that may have changed the machine: events, and what the main loop lost by it.
 void Board::settle() {
     asker_ = Channel::main;
-    if (!machine_.events.empty()) {
+    if (!machine_->events.empty()) {
         run_events();
     }
-    if (machine_.take_reset()) {
+    if (machine_->take_reset()) {
         power_on(time_);
         return;
     }
-    if (const int rounds = machine_.motion.take_lost_rounds(); rounds > 0) {
+    if (const int rounds = machine_->loop.take_lost_rounds(); rounds > 0) {
         wheel_.lose_rounds(rounds);
     }
-    if (const SimTime stall = machine_.take_stall(); stall > SimTime{0}) {
+    if (const SimTime stall = machine_->loop.take_stall(); stall > SimTime{0}) {
         wheel_.stall(stall);
     }
     if (wheel_.frozen() && !behaviour::all_hold(profile_->schedule.frozen_while, scope())) {
@@ -269,19 +275,19 @@ void Board::settle() {
 
 void Board::run_events() {
     for (int i = 0; i < event_limit; ++i) {
-        const auto event = machine_.events.take();
+        const auto event = machine_->events.take();
         if (!event) {
             return;
         }
         if (options_.observer != nullptr) {
             options_.observer->on_event(time_, *event);
         }
-        const std::vector<Rule>& rules = profile_->events[static_cast<std::size_t>(*event)];
+        const std::vector<Rule>& rules = profile_->rules_for(*event);
         if (!rules.empty()) {
             run_rules(rules, nullptr);
         }
     }
-    machine_.events.clear();
+    machine_->events.clear();
     notice(Level::error, "the profile's events raise each other without end; the rest was dropped");
 }
 
@@ -298,26 +304,27 @@ SimTime Board::next_tick() const {
 }
 
 SimTime Board::next_due() const {
-    if (machine_.hung()) {
-        return machine_.next_event();
+    if (machine_->hung()) {
+        return machine_->next_event();
     }
     const SimTime wheel =
-        wheel_.next_slot() <= time_ ? wheel_.next_slot() : wheel_.next_due(scope(), machine_.restless());
-    return std::min({machine_.next_event(), next_tick(), wheel, unfinished_due_});
+        wheel_.next_slot() <= time_ ? wheel_.next_slot() : wheel_.next_due(scope(), machine_->restless());
+    return std::min({machine_->next_event(), next_tick(), wheel, unfinished_due_});
 }
 
 /// A time before which nothing is due, found without asking which of the wheel's slots may send.
 SimTime Board::nothing_before() const {
-    if (machine_.hung()) {
-        return machine_.next_event();
+    if (machine_->hung()) {
+        return machine_->next_event();
     }
-    return std::min({machine_.next_event(), next_tick(), wheel_.next_slot(), unfinished_due_});
+    return std::min({machine_->next_event(), next_tick(), wheel_.next_slot(), unfinished_due_});
 }
 
 /// Goes through the slots before `end`. Those passed over because nothing could come of them are among them,
 /// for their rounds to count.
 void Board::run_slots(SimTime end) {
-    while (!machine_.hung() && wheel_.next_slot() < end && port(Channel::main).output.size() < output_limit) {
+    while (!machine_->hung() && wheel_.next_slot() < end &&
+           port(Channel::main).output.size() < output_limit) {
         const behaviour::Slot* slot = wheel_.turn(scope());
         if (slot != nullptr) {
             Send entry;
@@ -361,7 +368,7 @@ SimTime Board::advance(SimTime now) {
 
 void Board::step(SimTime due) {
     time_ = std::max(time_, due);
-    machine_.advance(time_);
+    machine_->advance(time_);
     settle();
     run_host();
     if (unfinished_due_ <= time_) {
@@ -371,7 +378,7 @@ void Board::step(SimTime due) {
         });
     }
     run_slots(time_ + SimTime{1});
-    if (!machine_.hung() && next_tick() <= time_) {
+    if (!machine_->hung() && next_tick() <= time_) {
         run_tick();
     }
 }

@@ -16,7 +16,7 @@
 #include "emulator/board/network_outbox.h"
 #include "emulator/board/output_buffer.h"
 #include "emulator/board/wheel.h"
-#include "emulator/machine/printer.h"
+#include "emulator/machine/machine.h"
 #include "emulator/machine/sim_time.h"
 #include "protocol/chitu_chunk.h"
 #include "protocol/framing.h"
@@ -119,7 +119,7 @@ class Board final : private behaviour::NoticeSink {
     /// notice; empty when it was done.
     std::string act(SimTime now, const behaviour::ActionCall& call);
     /// Calls `use` with the machine brought up to now, and sees to what comes of it.
-    void tinker(SimTime now, const std::function<void(machine::Printer& machine)>& use);
+    void tinker(SimTime now, const std::function<void(machine::Machine& machine)>& use);
     /// Sends one of the profile's frames, as a rule does; it has no request to take parameters from.
     void send_frame(SimTime now, const behaviour::Send& entry);
     /// Puts bytes on the wire to the screen, at once and as they are but for the line end, which is added
@@ -146,15 +146,16 @@ class Board final : private behaviour::NoticeSink {
     SimTime time() const { return time_; }
 
     /// Puts a changed profile in force: frames, rules and schedule at once; the machine's constants at the
-    /// next start of the program. State, queues and variables of the same name stay.
+    /// next start of the program. State, queues and variables of the same name stay. A profile of another
+    /// kind of machine changes nothing.
     void reload(std::shared_ptr<const behaviour::Profile> profile);
 
     const Counters& counters() const { return counters_; }
     std::uint64_t lines_too_long() const;
     std::uint64_t nul_bytes() const;
     const behaviour::Profile& profile() const { return *profile_; }
-    machine::Printer& machine() { return machine_; }
-    const machine::Printer& machine() const { return machine_; }
+    machine::Machine& machine() { return *machine_; }
+    const machine::Machine& machine() const { return *machine_; }
     /// Of the profile's own variables, in its order.
     std::span<const double> variables() const { return variables_; }
 
@@ -209,7 +210,7 @@ class Board final : private behaviour::NoticeSink {
 
     std::shared_ptr<const behaviour::Profile> profile_;
     Options options_;
-    machine::Printer machine_;
+    std::unique_ptr<machine::Machine> machine_;
     Wheel wheel_;
     std::array<Port, behaviour::channel_count> ports_;
     NetworkOutbox network_;

@@ -4,28 +4,30 @@
 
 #include "emulator/board/board.h"
 #include "emulator/board/sizes.h"
+#include "emulator/machine/event_rows.h"
 #include "protocol/command.h"
 #include "protocol/host_line.h"
 
 namespace fauxboard::board {
 namespace {
 
+using machine::event;
 using machine::EventId;
 using protocol::HostLineFault;
 
 EventId event_of(HostLineFault fault) {
     switch (fault) {
         case HostLineFault::wrong_number:
-            return EventId::host_wrong_number;
+            return event("host.wrong_number");
         case HostLineFault::wrong_checksum:
-            return EventId::host_wrong_checksum;
+            return event("host.wrong_checksum");
         case HostLineFault::no_checksum:
-            return EventId::host_no_checksum;
+            return event("host.no_checksum");
         case HostLineFault::no_number:
         case HostLineFault::none:
             break;
     }
-    return EventId::host_no_number;
+    return event("host.no_number");
 }
 
 /// Whether a code's first rule is to be carried out ahead of what waits.
@@ -42,15 +44,15 @@ bool is_urgent(const behaviour::Profile& profile, std::string_view body) {
 
 void Board::take_host_line(std::string_view line) {
     const protocol::HostLine framed = protocol::unframe_host_line(line);
-    machine::HostCommands& host = machine_.host;
+    machine::HostSide& host = machine_->host_side();
     const HostLineFault fault = protocol::judge_host_line(framed, host.last_line);
     const bool blank = framed.body.empty() && !framed.numbered;
     const bool urgent = fault == HostLineFault::none && !blank && is_urgent(*profile_, framed.body);
     Verdict verdict = Verdict::accepted;
-    if (fault != HostLineFault::none && !machine_.hung()) {
+    if (fault != HostLineFault::none && !machine_->hung()) {
         ++counters_.bad_frames;
         verdict = Verdict::bad_frame;
-    } else if (machine_.hung() || (!blank && !urgent && !host_inbox_.push(framed.body))) {
+    } else if (machine_->hung() || (!blank && !urgent && !host_inbox_.push(framed.body))) {
         // Its number does not count as taken, so a host that numbers its lines is asked for it again.
         ++counters_.requests_lost;
         verdict = Verdict::queue_full;
@@ -59,10 +61,10 @@ void Board::take_host_line(std::string_view line) {
     if (verdict == Verdict::queue_full || blank) {
         return;
     }
-    machine_.advance(time_);
+    machine_->advance(time_);
     if (fault != HostLineFault::none) {
         ++host.resends;
-        machine_.events.raise(event_of(fault));
+        machine_->events.raise(event_of(fault));
         settle();
         return;
     }
@@ -74,7 +76,7 @@ void Board::take_host_line(std::string_view line) {
     }
     if (urgent) {
         execute(Channel::host, framed.body);
-        machine_.events.raise(EventId::host_done);
+        machine_->events.raise(event("host.done"));
         settle();
     }
     run_host();
@@ -82,10 +84,10 @@ void Board::take_host_line(std::string_view line) {
 
 /// Ends the command that is over, begins the next that may begin, and so on.
 void Board::run_host() {
-    machine::HostCommands& host = machine_.host;
-    while (!machine_.hung() && port(Channel::host).output.size() < output_limit) {
+    machine::HostSide& host = machine_->host_side();
+    while (!machine_->hung() && port(Channel::host).output.size() < output_limit) {
         if (host.running()) {
-            if (host.under_way()) {
+            if (host.under_way(machine_->now())) {
                 return;
             }
             host.over();
@@ -101,9 +103,9 @@ void Board::run_host() {
         host_inbox_.pop();  // before it is executed: a reset empties the queue
         host.begin(command, time_);
         if (!host.write(command, time_)) {
-            machine_.transfer.asker = machine::Transfer::usb_side;
+            machine_->transfer.asker = machine::Transfer::usb_side;
             execute(Channel::host, command);
-            machine_.transfer.asker = machine::Transfer::serial_line;
+            machine_->transfer.asker = machine::Transfer::serial_line;
             host.follow_transfer();
         }
         settle();

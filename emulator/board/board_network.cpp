@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "emulator/board/board.h"
+#include "emulator/machine/event_rows.h"
 
 namespace fauxboard::board {
 namespace {
@@ -31,35 +32,35 @@ bool may_be_request(std::string_view bytes) {
 
 void Board::receive_datagram(SimTime now, std::uint64_t peer, std::string_view bytes) {
     catch_up(now);
-    if (peer == Transfer::serial_line || peer == Transfer::usb_side || network_.full() || machine_.hung()) {
+    if (peer == Transfer::serial_line || peer == Transfer::usb_side || network_.full() || machine_->hung()) {
         ++counters_.requests_lost;
         return;
     }
-    machine_.advance(time_);
+    machine_->advance(time_);
     if (options_.observer != nullptr) {
         options_.observer->on_datagram(time_, peer, true, bytes);
     }
     network_.answer(peer);
-    machine_.transfer.asker = peer;
+    machine_->transfer.asker = peer;
     const protocol::Chunk chunk = protocol::read_chunk(bytes);
     // A piece that nobody waits for is one too: were it taken for an unknown request, its sender would be
     // told that all is well.
     if (chunk.fault != protocol::ChunkFault::no_chunk ||
-        (machine_.transfer.takes_from(peer) && !may_be_request(bytes))) {
+        (machine_->transfer.takes_from(peer) && !may_be_request(bytes))) {
         take_piece(peer, chunk);
     } else {
         take_request(without_end(bytes));
     }
     network_.answer(0);
-    machine_.transfer.asker = Transfer::serial_line;
+    machine_->transfer.asker = Transfer::serial_line;
     settle();
 }
 
 /// What becomes of the next piece or block on its way. Chance is asked only where something is wrong, so that
 /// a sound network leaves the machine's sequence alone.
 Transfer::Mishap Board::mishap() {
-    const Transfer::Trouble& trouble = machine_.transfer.trouble;
-    return trouble.any() ? trouble.mishap(machine_.random()) : Transfer::Mishap::none;
+    const Transfer::Trouble& trouble = machine_->transfer.trouble;
+    return trouble.any() ? trouble.mishap(machine_->random()) : Transfer::Mishap::none;
 }
 
 void Board::take_piece(std::uint64_t peer, const protocol::Chunk& chunk) {
@@ -71,12 +72,12 @@ void Board::take_piece(std::uint64_t peer, const protocol::Chunk& chunk) {
     const bool intact = chunk.fault == protocol::ChunkFault::none && what != Transfer::Mishap::damaged;
     asker_ = Channel::network;
     for (int times = what == Transfer::Mishap::repeated ? 2 : 1; times > 0; --times) {
-        machine_.transfer.piece(time_, peer, intact, chunk.offset, chunk.payload);
+        machine_->transfer.piece(time_, peer, intact, chunk.offset, chunk.payload);
         if (what == Transfer::Mishap::answer_lost) {
             network_.answer(0);
             notice(Level::debug, "the answer to a piece of a file was lost on its way");
         }
-        run_rules(profile_->events[static_cast<std::size_t>(machine::EventId::transfer_piece)], nullptr);
+        run_rules(profile_->rules_for(machine::event("transfer.piece")), nullptr);
     }
 }
 

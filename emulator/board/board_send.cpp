@@ -21,7 +21,7 @@ constexpr std::string_view acknowledgement = "ok";
 }  // namespace
 
 void Board::send(const Send& entry, const Scope& here) {
-    if (machine_.hung() || !behaviour::all_hold(entry.when, here)) {
+    if (machine_->hung() || !behaviour::all_hold(entry.when, here)) {
         return;
     }
     const Frame& frame = profile_->frames[entry.frame];
@@ -36,9 +36,9 @@ void Board::send(const Send& entry, const Scope& here) {
         Draft draft{at_once ? output.room(short_one ? line_bytes : scratch_bytes)
                             : std::span<char>(scratch_)};
         compose(frame, here, draft);
-        wheel_.sent(entry.frame, machine_);
+        wheel_.sent(entry.frame, *machine_);
         if (!frame.then.empty()) {
-            ActionContext context{machine_, variables_, *this};
+            ActionContext context{*machine_, variables_, *this};
             for (const behaviour::ActionCall& call : frame.then) {
                 behaviour::run_action(call, here, profile_->variables, context);
             }
@@ -54,7 +54,7 @@ void Board::send(const Send& entry, const Scope& here) {
             output.grow(draft.size);
             counters_.lines_sent += draft.lines;
             if (to == Channel::host && message.starts_with(acknowledgement)) {
-                machine_.host.acknowledge();
+                machine_->host_side().acknowledge();
             }
             tell_sent(to, message);
         } else if (!outbox_.push(message)) {
@@ -83,7 +83,7 @@ void Board::compose_line(const Frame& frame, const behaviour::FrameTemplate& tex
 
 void Board::compose(const Frame& frame, const Scope& here, Draft& draft) {
     if (frame.chunk) {
-        const machine::Transfer& transfer = machine_.transfer;
+        const machine::Transfer& transfer = machine_->transfer;
         const std::string_view block = transfer.last_block.view();
         draft.size = protocol::write_chunk(
             draft.room, static_cast<std::uint32_t>(transfer.position() - block.size()), block);
@@ -97,7 +97,7 @@ void Board::compose(const Frame& frame, const Scope& here, Draft& draft) {
             continue;
         }
         Scope inside = here;
-        for (const machine::CardEntry& entry : machine_.listing()) {
+        for (const machine::CardEntry& entry : machine_->listing()) {
             inside.entry = &entry;
             if (behaviour::all_hold(line.when, inside)) {
                 compose_line(frame, line.text, inside, std::max(draft.size, end - closing_room), draft);

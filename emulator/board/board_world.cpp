@@ -40,12 +40,12 @@ bool Board::world(SimTime now, std::string_view phrase) {
 
 std::string Board::act(SimTime now, const behaviour::ActionCall& call) {
     catch_up(now);
-    machine_.advance(time_);
+    machine_->advance(time_);
     if (options_.observer != nullptr) {
         options_.observer->on_world(time_, behaviour::action_words(call, scope(), profile_->variables));
     }
     RefusalWatch watch(*this);
-    behaviour::ActionContext context{machine_, variables_, watch};
+    behaviour::ActionContext context{*machine_, variables_, watch};
     behaviour::run_action(call, scope(), profile_->variables, context);
     if (context.reset) {
         power_on(time_);
@@ -55,11 +55,11 @@ std::string Board::act(SimTime now, const behaviour::ActionCall& call) {
     return watch.refusal;
 }
 
-void Board::tinker(SimTime now, const std::function<void(machine::Printer& machine)>& use) {
+void Board::tinker(SimTime now, const std::function<void(machine::Machine& machine)>& use) {
     catch_up(now);
-    machine_.advance(time_);
-    use(machine_);
-    machine_.advance(time_);
+    machine_->advance(time_);
+    use(*machine_);
+    machine_->advance(time_);
     settle();
 }
 
@@ -79,7 +79,7 @@ void Board::send_raw(SimTime now, std::string_view bytes) {
 
 void Board::refresh(SimTime now) {
     catch_up(now);
-    machine_.advance(time_);
+    machine_->advance(time_);
     settle();
 }
 

@@ -50,14 +50,14 @@ void Wheel::power_on(SimTime now) {
 }
 
 bool Wheel::changed(const std::vector<std::size_t>& which, std::size_t frame,
-                    const machine::Printer& machine) const {
+                    const machine::Machine& machine) const {
     const auto& fields = profile_->frames[frame].watched;
     return std::any_of(which.begin(), which.end(), [&](std::size_t i) {
         return !(fields[i]->get(machine).number == watched_[watch_from_[frame] + i]);
     });
 }
 
-void Wheel::remember(std::size_t frame, const machine::Printer& machine) {
+void Wheel::remember(std::size_t frame, const machine::Machine& machine) {
     const auto& fields = profile_->frames[frame].watched;
     for (std::size_t i = 0; i < fields.size(); ++i) {
         watched_[watch_from_[frame] + i] = fields[i]->get(machine).number;
@@ -77,7 +77,7 @@ bool Wheel::sent_this_round(std::size_t frame) const {
 bool Wheel::conditions_hold(std::size_t index, const Scope& scope) const {
     const Slot& slot = profile_->schedule.slots[index];
     return behaviour::all_hold(slot.when, scope) &&
-           (slot.when_changed.empty() || changed(slot.when_changed, *slot.frame, scope.printer));
+           (slot.when_changed.empty() || changed(slot.when_changed, *slot.frame, scope.machine));
 }
 
 const Slot* Wheel::turn(const Scope& scope) {
@@ -94,7 +94,7 @@ const Slot* Wheel::turn(const Scope& scope) {
     bool due = false;
     if (slot.frame) {
         due = round >= state.base && (round - state.base) % slot.every_rounds == 0;
-        if (!slot.or_changed.empty() && changed(slot.or_changed, *slot.frame, scope.printer)) {
+        if (!slot.or_changed.empty() && changed(slot.or_changed, *slot.frame, scope.machine)) {
             due = true;
             state.base = round;  // the pause counts anew from here
         }
@@ -131,7 +131,7 @@ SimTime Wheel::next_due(const Scope& scope, bool volatile_state) const {
         if (!slot.frame) {
             continue;
         }
-        if (!slot.or_changed.empty() && changed(slot.or_changed, *slot.frame, scope.printer)) {
+        if (!slot.or_changed.empty() && changed(slot.or_changed, *slot.frame, scope.machine)) {
             return std::min(best, at);
         }
         if (!slot.always && !conditions_hold(index, scope)) {

@@ -39,7 +39,7 @@ class Wheel {
     const behaviour::Slot* turn(const behaviour::Scope& scope);
 
     /// The frame went out, for whatever reason: its watched values are those of now.
-    void sent(std::size_t frame, const machine::Printer& machine) {
+    void sent(std::size_t frame, const machine::Machine& machine) {
         if (!profile_->frames[frame].watched.empty()) {
             remember(frame, machine);
         }
@@ -61,9 +61,9 @@ class Wheel {
         std::size_t to_frame = no_frame;  ///< slots from here to the first that has a frame: 0 this one
     };
 
-    void remember(std::size_t frame, const machine::Printer& machine);
+    void remember(std::size_t frame, const machine::Machine& machine);
     bool changed(const std::vector<std::size_t>& which, std::size_t frame,
-                 const machine::Printer& machine) const;
+                 const machine::Machine& machine) const;
     bool conditions_hold(std::size_t index, const behaviour::Scope& scope) const;
     bool sent_this_round(std::size_t frame) const;
 

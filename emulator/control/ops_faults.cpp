@@ -15,8 +15,8 @@ namespace fauxboard::control::rows {
 namespace {
 
 using enum ParamType;
-using machine::Breakdowns;
-using machine::Printer;
+using machine::Faults;
+using machine::Machine;
 
 fault::FaultControl& faults(const Call& call) {
     fault::FaultControl* all = call.target.faults();
@@ -38,8 +38,8 @@ auto with_spec(const Call& call, F&& use) {
 
 [[noreturn]] void unknown_fault(const Json& id) {
     std::vector<std::string_view> names;
-    for (const machine::BreakdownInfo& info : machine::breakdowns()) {
-        names.push_back(info.name);
+    for (const machine::FaultInfo* info : machine::fault_rows()) {
+        names.push_back(info->name);
     }
     throw ControlError(
         ErrorCode::unknown_fault,
@@ -58,11 +58,11 @@ fault::FaultId fault_id(const Call& call) {
 Json add_to_printer(const Call& call, const fault::FaultSpec& spec) {
     unsigned number = 0;
     call.board.tinker(call.now,
-                      [&](Printer& p) { number = p.breakdowns.add(call.now, fault::to_request(spec)); });
+                      [&](Machine& p) { number = p.faults.add(call.now, fault::to_request(spec)); });
     if (number == 0) {
-        throw ControlError(ErrorCode::refused,
-                           fmt::format("The printer has {} faults, which is the most; take some away first.",
-                                       Breakdowns::most));
+        std::string why = call.board.machine().faults.refusal(*fault::to_request(spec).info);
+        why.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(why.front())));
+        throw ControlError(ErrorCode::refused, why + ".");
     }
     return fault::printer_fault_id(number);
 }
@@ -70,10 +70,10 @@ Json add_to_printer(const Call& call, const fault::FaultSpec& spec) {
 /// By id, or all of one kind by its name. False when there is none.
 bool remove_from_printer(const Call& call, const std::string& id) {
     bool done = false;
-    call.board.tinker(call.now, [&](Printer& p) {
-        const machine::BreakdownInfo* info = machine::find_breakdown(id);
-        done = info != nullptr ? p.breakdowns.remove(info->id) != 0
-                               : p.breakdowns.remove(fault::printer_fault_number(id));
+    call.board.tinker(call.now, [&](Machine& p) {
+        const machine::FaultInfo* info = machine::find_fault(id);
+        done =
+            info != nullptr ? p.faults.remove(*info) != 0 : p.faults.remove(fault::printer_fault_number(id));
     });
     return done;
 }
@@ -118,7 +118,7 @@ Answer remove(const Call& call) {
 }
 
 Answer clear(const Call& call) {
-    call.board.tinker(call.now, [](Printer& p) { p.breakdowns.clear(); });
+    call.board.tinker(call.now, [](Machine& p) { p.faults.clear(); });
     if (fault::FaultControl* all = call.target.faults()) {
         all->clear();
     }
@@ -133,8 +133,8 @@ Answer list(const Call& call) {
         }
     }
     call.board.refresh(call.now);
-    for (const machine::Breakdown& breakdown : call.board.machine().breakdowns.list()) {
-        out.push_back(fault::breakdown_to_json(breakdown));
+    for (const machine::Fault& each : call.board.machine().faults.list()) {
+        out.push_back(fault::printer_fault_to_json(each));
     }
     return Json{{"faults", std::move(out)}};
 }

@@ -120,7 +120,7 @@ Answer status(const Call& call) {
              {"clients", call.hub.size()}};
     fault::FaultControl* const faults = call.target.faults();
     out["faults"] =
-        (faults != nullptr ? faults->list().size() : 0) + call.board.machine().breakdowns.list().size();
+        (faults != nullptr ? faults->list().size() : 0) + call.board.machine().faults.list().size();
     out["counters"] = counters(call.board);
     out.update(call.target.status());
     return out;

@@ -117,7 +117,7 @@ Json describe_printer_kinds() {
     for (const Kind* kind : printer_kinds()) {
         Json events = Json::array();
         for (const machine::EventId id : kind->printer->events) {
-            events.push_back(machine::events()[static_cast<std::size_t>(id)].name);
+            events.push_back(id->name);
         }
         Json row{{"name", kind->name},
                  {"help", kind->help},

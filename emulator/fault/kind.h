@@ -9,7 +9,7 @@
 
 #include "emulator/fault/dice.h"
 #include "emulator/fault/spec.h"
-#include "emulator/machine/breakdowns.h"
+#include "emulator/machine/faults.h"
 
 namespace fauxboard::fault {
 
@@ -78,12 +78,12 @@ struct Kind {
     /// Lines it can act on; others are not even counted. Null: all.
     bool (*applies)(const LineEdit& line) = nullptr;
     /// It is the printer that breaks, not the line: no business of a FaultLine.
-    const machine::BreakdownInfo* printer = nullptr;
+    const machine::FaultInfo* printer = nullptr;
 };
 
 /// Every kind of fault of a line, in the order of the reference.
 std::span<const Kind* const> kinds();
-/// The printer's, one for each of machine::breakdowns(), in that order.
+/// The printer's, one for each of machine::fault_rows(), in that order.
 std::span<const Kind* const> printer_kinds();
 /// The kind of that name, of either, or null.
 const Kind* find_kind(std::string_view name);

@@ -7,23 +7,24 @@
 #include <array>
 #include <charconv>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "emulator/fault/kind.h"
 
 namespace fauxboard::fault {
 namespace {
 
-using machine::BreakdownInfo;
-using machine::BreakdownParameter;
-using machine::BreakdownUnit;
+using machine::FaultInfo;
+using machine::FaultParameter;
+using machine::FaultUnit;
 
-AttributeType type_of(BreakdownUnit unit) {
+AttributeType type_of(FaultUnit unit) {
     switch (unit) {
-        case BreakdownUnit::choice:
+        case FaultUnit::choice:
             return AttributeType::choice;
-        case BreakdownUnit::percent:
+        case FaultUnit::percent:
             return AttributeType::number;
-        case BreakdownUnit::celsius:
+        case FaultUnit::celsius:
             break;
     }
     return AttributeType::temperature;
@@ -31,31 +32,30 @@ AttributeType type_of(BreakdownUnit unit) {
 
 /// The machine's rows as this room has them.
 struct Rows {
-    static constexpr std::size_t count = machine::breakdown_count;
-    std::array<std::array<Attribute, 2>, count> attributes{};
-    std::array<Kind, count> kinds{};
-    std::array<const Kind*, count> pointers{};
+    std::vector<std::array<Attribute, machine::FaultValues{}.size()>> attributes;
+    std::vector<Kind> kinds;
+    std::vector<const Kind*> pointers;
 
-    Rows() {
-        for (std::size_t i = 0; i < count; ++i) {
-            const BreakdownInfo& info = machine::breakdowns()[i];
+    Rows() : attributes(machine::fault_rows().size()), kinds(attributes.size()) {
+        for (std::size_t i = 0; i < kinds.size(); ++i) {
+            const FaultInfo& info = *machine::fault_rows()[i];
             for (std::size_t k = 0; k < info.parameters.size(); ++k) {
-                const BreakdownParameter& p = info.parameters[k];
+                const FaultParameter& p = info.parameters[k];
                 attributes[i][k] = {p.name, type_of(p.unit), p.fallback, p.min, p.max, p.help, p.choices};
             }
             kinds[i].name = info.name;
             kinds[i].help = info.help;
             kinds[i].attributes = {attributes[i].data(), info.parameters.size()};
             kinds[i].printer = &info;
-            pointers[i] = &kinds[i];
+            pointers.push_back(&kinds[i]);
         }
     }
     Rows(const Rows&) = delete;
     Rows& operator=(const Rows&) = delete;
 };
-static_assert(machine::BreakdownValues{}.size() == 2 && Values::most >= 2, "all values have their place");
+static_assert(machine::FaultValues{}.size() == 2 && Values::most >= 2, "all values have their place");
 
-FaultSpec to_spec(const machine::BreakdownRequest& request) {
+FaultSpec to_spec(const machine::FaultRequest& request) {
     FaultSpec spec;
     spec.kind = find_kind(request.info->name);
     for (std::size_t i = 0; i < request.values.size(); ++i) {
@@ -78,8 +78,8 @@ bool is_for_printer(const FaultSpec& spec) {
     return spec.kind->printer != nullptr;
 }
 
-machine::BreakdownRequest to_request(const FaultSpec& spec) {
-    machine::BreakdownRequest request;
+machine::FaultRequest to_request(const FaultSpec& spec) {
+    machine::FaultRequest request;
     request.info = spec.kind->printer;
     for (std::size_t i = 0; i < request.values.size(); ++i) {
         request.values[i] = spec.values.number(i);
@@ -90,20 +90,20 @@ machine::BreakdownRequest to_request(const FaultSpec& spec) {
     return request;
 }
 
-Json breakdown_to_json(const machine::Breakdown& breakdown) {
-    return {{"id", printer_fault_id(breakdown.number)},
-            {"fault", fault_to_json(to_spec(breakdown.request))},
-            {"state", machine::state_name(breakdown.state)},
-            {"begin", machine::to_seconds(breakdown.begin)},
-            {"over", breakdown.state == machine::BreakdownState::over}};
+Json printer_fault_to_json(const machine::Fault& fault) {
+    return {{"id", printer_fault_id(fault.number)},
+            {"fault", fault_to_json(to_spec(fault.request))},
+            {"state", machine::state_name(fault.state)},
+            {"begin", machine::to_seconds(fault.begin)},
+            {"over", fault.state == machine::FaultState::over}};
 }
 
-std::string breakdown_sentence(const machine::Breakdown& breakdown) {
-    const std::string_view state = breakdown.state == machine::BreakdownState::waiting  ? "has not begun"
-                                   : breakdown.state == machine::BreakdownState::active ? "is in force"
-                                                                                        : "is over";
-    return fmt::format("Printer fault {}, {}, {}.", printer_fault_id(breakdown.number),
-                       fault_to_text(to_spec(breakdown.request)), state);
+std::string printer_fault_sentence(const machine::Fault& fault) {
+    const std::string_view state = fault.state == machine::FaultState::waiting  ? "has not begun"
+                                   : fault.state == machine::FaultState::active ? "is in force"
+                                                                                : "is over";
+    return fmt::format("Printer fault {}, {}, {}.", printer_fault_id(fault.number),
+                       fault_to_text(to_spec(fault.request)), state);
 }
 
 std::string printer_fault_id(unsigned number) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "emulator/fault/spec.h"
-#include "emulator/machine/breakdowns.h"
+#include "emulator/machine/faults.h"
 
 namespace fauxboard::fault {
 
@@ -9,13 +9,13 @@ namespace fauxboard::fault {
 bool is_for_printer(const FaultSpec& spec);
 
 /// What the machine is asked for by a spec that is for the printer.
-machine::BreakdownRequest to_request(const FaultSpec& spec);
+machine::FaultRequest to_request(const FaultSpec& spec);
 
 /// {"id": "p1", "fault": {"kind": "jam", ...}, "state": "active", "begin": 60.0, "over": false}; "begin" in
 /// seconds of virtual time.
-Json breakdown_to_json(const machine::Breakdown& breakdown);
+Json printer_fault_to_json(const machine::Fault& fault);
 /// "Printer fault p1, jam:lost=50, is active."
-std::string breakdown_sentence(const machine::Breakdown& breakdown);
+std::string printer_fault_sentence(const machine::Fault& fault);
 
 /// "p1" and back; 0 for anything else.
 std::string printer_fault_id(unsigned number);

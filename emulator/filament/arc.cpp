@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace fauxboard::machine {
+namespace fauxboard::filament {
 
 bool ArcSegments::begin(const Request& request) {
     clear();
@@ -62,4 +62,4 @@ AxisValues ArcSegments::take() {
     return at;
 }
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::filament

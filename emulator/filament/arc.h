@@ -2,9 +2,9 @@
 
 #include <cstdint>
 
-#include "emulator/machine/machine_config.h"
+#include "emulator/filament/config.h"
 
-namespace fauxboard::machine {
+namespace fauxboard::filament {
 
 /// An arc (G2, G3) as the firmware runs it: a row of straight moves of about 1 mm, made one by one.
 class ArcSegments {
@@ -36,4 +36,4 @@ class ArcSegments {
     std::uint32_t count_ = 0;
 };
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::filament

@@ -1,6 +1,8 @@
 #include "emulator/filament/feeder.h"
+#include "emulator/filament/event_rows.h"
+#include "emulator/filament/names.h"
 
-namespace fauxboard::machine {
+namespace fauxboard::filament {
 namespace {
 
 constexpr double piece_mm = 10;
@@ -28,7 +30,7 @@ void Feeder::feed_once(SimTime now) {
 void Feeder::stop(SimTime now, EventQueue& events) {
     if (mode_ == Mode::idle || now - piece_start_ < from_seconds(config_.piece_commit_s)) {
         power_on();
-        events.raise(EventId::filament_stopped);
+        events.raise(event("filament.stopped"));
         return;
     }
     stopping_ = true;
@@ -36,11 +38,11 @@ void Feeder::stop(SimTime now, EventQueue& events) {
 
 void Feeder::advance(SimTime now, EventQueue& events) {
     while (mode_ != Mode::idle && next_ <= now) {
-        events.raise(EventId::filament_piece);
+        events.raise(event("filament.piece"));
         fed_ += mode_ == Mode::load ? piece_mm : mode_ == Mode::unload ? -piece_mm : 0;
         if (stopping_) {
             power_on();
-            events.raise(EventId::filament_stopped);
+            events.raise(event("filament.stopped"));
             return;
         }
         piece_start_ = next_;
@@ -48,4 +50,4 @@ void Feeder::advance(SimTime now, EventQueue& events) {
     }
 }
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::filament

@@ -1,10 +1,9 @@
 #pragma once
 
-#include "emulator/machine/events.h"
-#include "emulator/machine/machine_config.h"
-#include "emulator/machine/sim_time.h"
+#include "emulator/filament/config.h"
+#include "emulator/filament/names.h"
 
-namespace fauxboard::machine {
+namespace fauxboard::filament {
 
 /// Loading, unloading and cleaning: pieces of filament, one after the other, until stopped (M2105).
 class Feeder {
@@ -37,4 +36,4 @@ class Feeder {
     double fed_ = 0;
 };
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::filament

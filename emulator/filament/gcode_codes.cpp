@@ -9,10 +9,17 @@
 #include <string>
 #include <string_view>
 
+#include "emulator/filament/event_rows.h"
 #include "emulator/filament/gcode_line.h"
-#include "emulator/machine/printer.h"
+#include "emulator/filament/heating_wait.h"
+#include "emulator/filament/mixer.h"
+#include "emulator/filament/motion.h"
+#include "emulator/filament/names.h"
+#include "emulator/filament/procedures.h"
+#include "emulator/filament/state.h"
+#include "emulator/filament/thermal.h"
 
-namespace fauxboard::machine {
+namespace fauxboard::filament {
 namespace {
 
 constexpr std::string_view axis_letters = "XYZE";
@@ -48,40 +55,39 @@ struct Codes {
 
     /// Where a G0 to G3 ends; F, if there, stays in force.
     static AxisValues target_of(GcodeSource& r, Line line) {
-        const Motion& motion = r.printer.motion;
+        const Motion& motion = r.on.motion;
         AxisValues target = motion.planned();
         for (std::size_t i = 0; i < axis_count; ++i) {
             if (line.has(axis_letters[i])) {
                 const bool relative = i == 3 ? motion.relative_e() : motion.relative();
-                target[i] =
-                    line.number(axis_letters[i]) * r.printer.modal.unit_mm + (relative ? target[i] : 0);
+                target[i] = line.number(axis_letters[i]) * r.on.modal.unit_mm + (relative ? target[i] : 0);
             }
         }
         if (line.number('F') > 0) {
-            r.printer.modal.feed_mm_s = line.number('F') * r.printer.modal.unit_mm / 60;
+            r.on.modal.feed_mm_s = line.number('F') * r.on.modal.unit_mm / 60;
         }
         return target;
     }
 
     static void move(GcodeSource& r, Line line) {
         ++r.moves;
-        Motion& motion = r.printer.motion;
+        Motion& motion = r.on.motion;
         const AxisValues target = target_of(r, line);
         if (target != motion.planned()) {
-            motion.stream(target, r.printer.modal.feed_mm_s * motion.speed_percent() / 100.0, r.byte);
+            motion.stream(target, r.on.modal.feed_mm_s * motion.speed_percent() / 100.0, r.byte);
         }
     }
 
     static void arc(GcodeSource& r, Line line) {
         ++r.moves;
         ArcSegments::Request request;
-        request.from = r.printer.motion.planned();
+        request.from = r.on.motion.planned();
         request.to = target_of(r, line);
-        request.i = line.number('I') * r.printer.modal.unit_mm;
-        request.j = line.number('J') * r.printer.modal.unit_mm;
-        request.radius = line.number('R') * r.printer.modal.unit_mm;
+        request.i = line.number('I') * r.on.modal.unit_mm;
+        request.j = line.number('J') * r.on.modal.unit_mm;
+        request.radius = line.number('R') * r.on.modal.unit_mm;
         request.clockwise = line.code == 2;
-        request.feed_mm_s = r.printer.modal.feed_mm_s;
+        request.feed_mm_s = r.on.modal.feed_mm_s;
         r.arc.begin(request);
     }
 
@@ -94,7 +100,8 @@ struct Codes {
     }
 
     static void home(GcodeSource& r, Line line) {
-        r.printer.home((line.has('X') ? 1U : 0U) | (line.has('Y') ? 2U : 0U) | (line.has('Z') ? 4U : 0U));
+        r.on.moves.home((line.has('X') ? 1U : 0U) | (line.has('Y') ? 2U : 0U) | (line.has('Z') ? 4U : 0U),
+                        r.now);
     }
 
     static void set_position(GcodeSource& r, Line line) {
@@ -102,23 +109,23 @@ struct Codes {
         bool any = false;
         for (std::size_t i = 0; i < axis_count; ++i) {
             if (line.has(axis_letters[i])) {
-                values[i] = line.number(axis_letters[i]) * r.printer.modal.unit_mm;
+                values[i] = line.number(axis_letters[i]) * r.on.modal.unit_mm;
                 any = true;
             }
         }
-        r.printer.motion.set_position(any ? values : AxisTargets{0, 0, 0, 0});
+        r.on.motion.set_position(any ? values : AxisTargets{0, 0, 0, 0});
     }
 
     static void wait_for_user(GcodeSource& r, Line line) {
-        r.printer.job.waits_for_user = true;
-        r.printer.pause_job(line.code == 600);
-        r.printer.events.raise(EventId::job_waits_for_user);
+        r.on.job.waits_for_user = true;
+        r.on.control.pause_job(line.code == 600);
+        r.on.events.raise(event("job.waits_for_user"));
     }
 
     /// A heater that is not the nozzle in use: a slicer that believes in several hotends switches those off
     /// that it is done with, and the one nozzle of a mixing printer must not go cold from it.
     static bool other_hotend(GcodeSource& r, Line line) {
-        return line.has('T') && line.number('S') <= 0 && line.number('T') != r.printer.mixer.tool();
+        return line.has('T') && line.number('S') <= 0 && line.number('T') != r.on.mixer.tool();
     }
 
     static void target(GcodeSource& r, Line line, HeaterId heater, bool wait) {
@@ -126,7 +133,7 @@ struct Codes {
         if (c < 0 || (heater == HeaterId::nozzle && other_hotend(r, line))) {
             return;
         }
-        Printer& p = r.printer;
+        GcodeMachine& p = r.on;
         p.thermal.set_target(heater, c);
         if (wait && p.thermal.heating(heater) && !p.thermal.reached(heater)) {
             p.wait.start(heater, r.now, p.events);
@@ -137,40 +144,39 @@ struct Codes {
         const double number = line.number('P');
         const int share = percent(pwm * 100 / 255, 0, 100);
         if (number == 0) {
-            r.printer.fans.part_percent = share;
+            r.on.fans.part_percent = share;
         } else if (number == 2) {
-            r.printer.fans.second_percent = share;
+            r.on.fans.second_percent = share;
         }
     }
 
     static void message(GcodeSource& r, Line line) {
-        std::string& text = r.printer.job.message;
+        std::string& text = r.on.job.message;
         text.assign(line.text.substr(0, longest_message));
         std::replace_if(
             text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
-        r.printer.events.raise(EventId::job_message);
+        r.on.events.raise(event("job.message"));
         wait(r, message_s);  // told before the next one takes its place
     }
 
     static void mix_weight(GcodeSource& r, Line line) {
         const double channel = line.number('S', -1);
         if (channel >= 0 && channel < 3) {
-            r.printer.modal.weights[static_cast<std::size_t>(channel)] = line.number('P');
+            r.on.modal.weights[static_cast<std::size_t>(channel)] = line.number('P');
         }
     }
 
     /// M164 stores what M163 gathered; M165 says the weights itself, by the letters of either dialect.
     static void mix_store(GcodeSource& r, Line) {
-        r.printer.mixer.set_weights(r.printer.modal.weights[0], r.printer.modal.weights[1],
-                                    r.printer.modal.weights[2]);
-        r.printer.modal.weights = {};
+        r.on.mixer.set_weights(r.on.modal.weights[0], r.on.modal.weights[1], r.on.modal.weights[2]);
+        r.on.modal.weights = {};
     }
     static void mix(GcodeSource& r, Line line) {
-        r.printer.mixer.set_weights(line.number('A'), line.number('B'), line.number('C'));
+        r.on.mixer.set_weights(line.number('A'), line.number('B'), line.number('C'));
     }
     /// M166: mixing that changes with the height, from A to Z mm; S switches it on or off.
     static void mix_gradient(GcodeSource& r, Line line) {
-        Mixer& mixer = r.printer.mixer;
+        Mixer& mixer = r.on.mixer;
         if (line.has('A')) {
             mixer.set_start_height(line.number('A'));
         }
@@ -183,13 +189,13 @@ struct Codes {
     }
 
     static void acceleration(GcodeSource& r, Line line) {
-        Settings& settings = r.printer.settings;
+        Settings& settings = r.on.settings;
         take(line, 'S', settings.acceleration_mm_s2);
         take(line, 'P', settings.acceleration_mm_s2);
         take(line, line.has('R') ? 'R' : 'T', settings.retract_acceleration_mm_s2);
     }
     static void jerk(GcodeSource& r, Line line) {
-        Settings& settings = r.printer.settings;
+        Settings& settings = r.on.settings;
         take(line, 'S', settings.min_velocity_mm_s);
         take(line, 'T', settings.min_travel_mm_s);
         take_axes(line, settings.jerk_mm_s, 0);
@@ -202,30 +208,29 @@ struct Codes {
         {'G', 2, false, arc},
         {'G', 3, false, arc},
         {'G', 4, true, dwell},
-        {'G', 20, false, [](GcodeSource& r, Line) { r.printer.modal.unit_mm = 25.4; }},
-        {'G', 21, false, [](GcodeSource& r, Line) { r.printer.modal.unit_mm = 1; }},
+        {'G', 20, false, [](GcodeSource& r, Line) { r.on.modal.unit_mm = 25.4; }},
+        {'G', 21, false, [](GcodeSource& r, Line) { r.on.modal.unit_mm = 1; }},
         {'G', 28, true, home, true},
-        {'G', 29, true, [](GcodeSource& r, Line) { r.printer.run("probe_bed"); }, true},
-        {'G', 90, false, [](GcodeSource& r, Line) { r.printer.motion.set_relative(false); }},
-        {'G', 91, false, [](GcodeSource& r, Line) { r.printer.motion.set_relative(true); }},
+        {'G', 29, true, [](GcodeSource& r, Line) { r.on.moves.run("probe_bed", r.now); }, true},
+        {'G', 90, false, [](GcodeSource& r, Line) { r.on.motion.set_relative(false); }},
+        {'G', 91, false, [](GcodeSource& r, Line) { r.on.motion.set_relative(true); }},
         {'G', 92, false, set_position},
         {'M', 0, true, wait_for_user},
         {'M', 1, true, wait_for_user},
-        {'M', 17, true, [](GcodeSource& r, Line) { r.printer.motion.set_motors(true); }},
-        {'M', 18, true, [](GcodeSource& r, Line) { r.printer.motors_off(); }},
-        {'M', 25, true, [](GcodeSource& r, Line) { r.printer.pause_job(); }},
-        {'M', 82, false, [](GcodeSource& r, Line) { r.printer.motion.set_relative_e(false); }},
-        {'M', 83, false, [](GcodeSource& r, Line) { r.printer.motion.set_relative_e(true); }},
-        {'M', 84, true, [](GcodeSource& r, Line) { r.printer.motors_off(); }},
-        {'M', 92, false,
-         [](GcodeSource& r, Line line) { take_axes(line, r.printer.settings.steps_per_mm, 1); }},
+        {'M', 17, true, [](GcodeSource& r, Line) { r.on.motion.set_motors(true); }},
+        {'M', 18, true, [](GcodeSource& r, Line) { r.on.motion.set_motors(false); }},
+        {'M', 25, true, [](GcodeSource& r, Line) { r.on.control.pause_job(true); }},
+        {'M', 82, false, [](GcodeSource& r, Line) { r.on.motion.set_relative_e(false); }},
+        {'M', 83, false, [](GcodeSource& r, Line) { r.on.motion.set_relative_e(true); }},
+        {'M', 84, true, [](GcodeSource& r, Line) { r.on.motion.set_motors(false); }},
+        {'M', 92, false, [](GcodeSource& r, Line line) { take_axes(line, r.on.settings.steps_per_mm, 1); }},
         {'M', 104, false, [](GcodeSource& r, Line line) { target(r, line, HeaterId::nozzle, false); }},
         {'M', 105, false, nothing},
         {'M', 106, false, [](GcodeSource& r, Line line) { fan(r, line, line.number('S', 255)); }},
         {'M', 107, false, [](GcodeSource& r, Line line) { fan(r, line, 0); }},
         {'M', 109, false, [](GcodeSource& r, Line line) { target(r, line, HeaterId::nozzle, true); }},
         {'M', 110, false, nothing},
-        {'M', 112, false, [](GcodeSource& r, Line) { r.printer.emergency_stop(); }},
+        {'M', 112, false, [](GcodeSource& r, Line) { r.on.control.emergency_stop(); }},
         {'M', 114, false, nothing},
         {'M', 115, false, nothing},
         {'M', 117, false, message},
@@ -236,23 +241,23 @@ struct Codes {
         {'M', 166, false, mix_gradient},
         {'M', 190, false, [](GcodeSource& r, Line line) { target(r, line, HeaterId::bed, true); }},
         {'M', 201, false,
-         [](GcodeSource& r, Line line) { take_axes(line, r.printer.settings.max_acceleration_mm_s2, 1); }},
+         [](GcodeSource& r, Line line) { take_axes(line, r.on.settings.max_acceleration_mm_s2, 1); }},
         {'M', 203, false,
-         [](GcodeSource& r, Line line) { take_axes(line, r.printer.settings.velocity_mm_s, 0.01); }},
+         [](GcodeSource& r, Line line) { take_axes(line, r.on.settings.velocity_mm_s, 0.01); }},
         {'M', 204, false, acceleration},
         {'M', 205, false, jerk},
         {'M', 220, false,
          [](GcodeSource& r,
-            Line line) { r.printer.motion.set_speed_percent(percent(line.number('S', 100), 10, 999)); }},
+            Line line) { r.on.motion.set_speed_percent(percent(line.number('S', 100), 10, 999)); }},
         {'M', 221, false,
          [](GcodeSource& r,
-            Line line) { r.printer.motion.set_flow_percent(percent(line.number('S', 100), 10, 999)); }},
+            Line line) { r.on.motion.set_flow_percent(percent(line.number('S', 100), 10, 999)); }},
         {'M', 400, true, nothing},
         {'M', 600, true, wait_for_user},
-        {'T', 0, false, [](GcodeSource& r, Line) { r.printer.mixer.select_tool(0); }},
-        {'T', 1, false, [](GcodeSource& r, Line) { r.printer.mixer.select_tool(1); }},
-        {'T', 2, false, [](GcodeSource& r, Line) { r.printer.mixer.select_tool(2); }},
-        {'T', 3, false, [](GcodeSource& r, Line) { r.printer.mixer.select_tool(3); }},
+        {'T', 0, false, [](GcodeSource& r, Line) { r.on.mixer.select_tool(0); }},
+        {'T', 1, false, [](GcodeSource& r, Line) { r.on.mixer.select_tool(1); }},
+        {'T', 2, false, [](GcodeSource& r, Line) { r.on.mixer.select_tool(2); }},
+        {'T', 3, false, [](GcodeSource& r, Line) { r.on.mixer.select_tool(3); }},
     });
 };
 
@@ -293,8 +298,8 @@ const GcodeCode* find_code(char letter, int code) {
 }
 
 void stream_arc(GcodeSource& source) {
-    Motion& motion = source.printer.motion;
+    Motion& motion = source.on.motion;
     motion.stream(source.arc.take(), source.arc.feed_mm_s() * motion.speed_percent() / 100.0, source.byte);
 }
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::filament

@@ -4,12 +4,19 @@
 #include <cstdint>
 
 #include "emulator/filament/arc.h"
-#include "emulator/machine/sim_time.h"
+#include "emulator/filament/names.h"
+#include "emulator/machine/job_control.h"
 
-namespace fauxboard::machine {
+namespace fauxboard::filament {
 
-class Printer;
+class HeatingWait;
+class Mixer;
+class Motion;
+class Procedures;
+class Thermal;
+struct Fans;
 struct GcodeLine;
+struct Settings;
 
 /// What codes set for all that come after them, whoever sends those: the firmware has it once.
 struct GcodeModal {
@@ -18,9 +25,24 @@ struct GcodeModal {
     std::array<double, 3> weights{};  ///< M163, until M164
 };
 
+/// What codes act on.
+struct GcodeMachine {
+    Motion& motion;
+    Procedures& moves;
+    Thermal& thermal;
+    HeatingWait& wait;
+    Mixer& mixer;
+    Fans& fans;
+    Settings& settings;
+    GcodeModal& modal;
+    Job& job;
+    EventQueue& events;
+    machine::JobControl& control;
+};
+
 /// Where codes come from (the file of a job, the USB side): each does one thing after the other.
 struct GcodeSource {
-    Printer& printer;
+    GcodeMachine& on;
     ArcSegments arc{};        ///< the rest of a G2 or G3 under way
     SimTime now{0};           ///< when the line is carried out
     SimTime wake{0};          ///< the next one not before (G4)
@@ -43,4 +65,4 @@ const GcodeCode* find_code(char letter, int code);
 /// Plans the next straight piece of the source's arc; there must be one, and room for it.
 void stream_arc(GcodeSource& source);
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::filament

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace fauxboard::machine {
+namespace fauxboard::filament {
 namespace {
 
 constexpr double largest = 1e9;
@@ -147,4 +147,4 @@ void parse_gcode(std::string_view line, GcodeLine& out) {
     }
 }
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::filament

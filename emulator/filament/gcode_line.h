@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace fauxboard::machine {
+namespace fauxboard::filament {
 
 /// One line of G-code, taken apart. Points into the text it was parsed from.
 struct GcodeLine {
@@ -43,4 +43,4 @@ void parse_gcode(std::string_view line, GcodeLine& out);
 /// Reads a plain decimal at the start of `text` ("-1.50", ".5", "+3") and takes it off; 0 when there is none.
 double take_decimal(std::string_view& text);
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::filament

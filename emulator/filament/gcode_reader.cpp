@@ -1,11 +1,12 @@
 #include "emulator/filament/gcode_reader.h"
+#include "emulator/filament/names.h"
 
 #include <algorithm>
 #include <cstring>
 #include <span>
 #include <utility>
 
-namespace fauxboard::machine {
+namespace fauxboard::filament {
 
 void GcodeReader::open(const Volume& volume, std::string path, std::uint64_t from) {
     volume_ = &volume;
@@ -90,4 +91,4 @@ GcodeReader::Result GcodeReader::next(std::string_view& line) {
     }
 }
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::filament

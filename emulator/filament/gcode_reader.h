@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "emulator/machine/storage.h"
+#include "emulator/filament/names.h"
 
-namespace fauxboard::machine {
+namespace fauxboard::filament {
 
 /// Streams the lines of a file on a disk, a fixed piece at a time: how long the file is makes no difference
 /// to memory, nor to how soon the first line is there.
@@ -53,4 +53,4 @@ class GcodeReader {
     std::uint64_t lines_cut_ = 0;
 };
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::filament

@@ -1,19 +1,21 @@
 #include "emulator/filament/heating_wait.h"
+#include "emulator/filament/event_rows.h"
+#include "emulator/filament/names.h"
 
-namespace fauxboard::machine {
+namespace fauxboard::filament {
 
 void HeatingWait::start(HeaterId heater, SimTime now, EventQueue& events) {
     active_ = true;
     heater_ = heater;
     counter_ = 0;
     next_ = now + step;
-    events.raise(EventId::heating_wait_started);
+    events.raise(event("heating.wait_started"));
 }
 
 void HeatingWait::cancel(EventQueue& events) {
     if (active_) {
         active_ = false;
-        events.raise(EventId::heating_wait_done);
+        events.raise(event("heating.wait_done"));
     }
 }
 
@@ -24,11 +26,11 @@ void HeatingWait::advance(SimTime now, const Thermal& thermal, EventQueue& event
     next_ += step;
     ++counter_;
     if (counter_ % 10 == 0) {
-        events.raise(EventId::heating_wait_report);
+        events.raise(event("heating.wait_report"));
     }
     if (!thermal.heating(heater_) || thermal.reached(heater_)) {
         cancel(events);
     }
 }
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::filament

@@ -2,11 +2,10 @@
 
 #include <cstdint>
 
+#include "emulator/filament/names.h"
 #include "emulator/filament/thermal.h"
-#include "emulator/machine/events.h"
-#include "emulator/machine/sim_time.h"
 
-namespace fauxboard::machine {
+namespace fauxboard::filament {
 
 /// M109 and M190: the board's main loop stands still until a heater is there, and reports now and then.
 ///
@@ -31,4 +30,4 @@ class HeatingWait {
     SimTime next_ = never;
 };
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::filament

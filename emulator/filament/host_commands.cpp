@@ -2,27 +2,27 @@
 
 #include <algorithm>
 
-#include "emulator/machine/printer.h"
+#include "emulator/filament/event_rows.h"
+#include "emulator/filament/heating_wait.h"
+#include "emulator/filament/motion.h"
+#include "emulator/filament/names.h"
 
-namespace fauxboard::machine {
+namespace fauxboard::filament {
 namespace {
 
-constexpr std::size_t shown_bytes = 96;
 constexpr int end_of_file = 29;  ///< M29
 
 }  // namespace
 
 void HostCommands::power_on() {
+    HostSide::power_on();
     source_.arc.clear();
     source_.wake = SimTime{0};
     source_.moves = 0;
-    running_ = acknowledged_ = writing_ = false;
+    writing_ = false;
     unwritten_.clear();
     busy_ = never;
-    last_line = 0;
-    resends = commands = 0;
     parsed_.clear();
-    command_.clear();
     code_ = nullptr;
 }
 
@@ -36,27 +36,23 @@ void HostCommands::parse(std::string_view command) {
 }
 
 bool HostCommands::ready(std::string_view command) {
-    const Printer& p = source_.printer;
-    if (running_ || p.wait.active()) {
+    if (running() || source_.on.wait.active()) {
         return false;
     }
     if (writing_) {
         return true;  // it moves nothing, so it need not wait for what moves
     }
     parse(command);
-    return code_ == nullptr || (code_->at_rest ? !p.motion.busy() : p.motion.can_stream());
+    const Motion& motion = source_.on.motion;
+    return code_ == nullptr || (code_->at_rest ? !motion.busy() : motion.can_stream());
 }
 
 void HostCommands::begin(std::string_view command, SimTime now) {
     parse(command);
-    command_.assign(command.substr(0, shown_bytes));
+    HostSide::begin(command, now);
     source_.now = now;
-    source_.byte = source_.printer.job.place();
-    running_ = true;
-    acknowledged_ = false;
-    ++commands;
-    const double busy_s = source_.printer.config().host.busy_s;
-    busy_ = busy_s > 0 ? now + from_seconds(busy_s) : never;
+    source_.byte = source_.on.job.place();
+    busy_ = config_.busy_s > 0 ? now + from_seconds(config_.busy_s) : never;
 }
 
 bool HostCommands::run_code() {
@@ -68,23 +64,20 @@ bool HostCommands::run_code() {
     return true;
 }
 
-bool HostCommands::under_way() const {
-    const Printer& p = source_.printer;
-    const bool waits_for_user = p.job.waits_for_user && !p.job.active();
-    return source_.arc.active() || source_.wake > p.now() || p.wait.active() || waits_for_user ||
-           (code_ != nullptr && code_->blocks && p.motion.busy());
+bool HostCommands::under_way(SimTime now) const {
+    const GcodeMachine& on = source_.on;
+    const bool waits_for_user = on.job.waits_for_user && !on.job.active();
+    return source_.arc.active() || source_.wake > now || on.wait.active() || waits_for_user ||
+           (code_ != nullptr && code_->blocks && on.motion.busy());
 }
 
 void HostCommands::over() {
-    running_ = false;
     busy_ = never;
-    if (!acknowledged_) {
-        source_.printer.events.raise(EventId::host_done);
-    }
+    HostSide::over();
 }
 
 void HostCommands::follow_transfer() {
-    const bool open = source_.printer.transfer.takes_from(Transfer::usb_side);
+    const bool open = transfer_.takes_from(Transfer::usb_side);
     if (open != writing_) {
         writing_ = open;
         unwritten_.clear();
@@ -109,17 +102,16 @@ bool HostCommands::write(std::string_view command, SimTime now) {
 
 /// What is not on the disk yet goes there.
 void HostCommands::flush(SimTime now) {
-    Transfer& transfer = source_.printer.transfer;
-    if (transfer.takes_from(Transfer::usb_side) &&
-        !transfer.piece(now, Transfer::usb_side, true, transfer.position(), unwritten_)) {
-        transfer.close(now, Transfer::usb_side);
-        source_.printer.events.raise(EventId::host_write_failed);
+    if (transfer_.takes_from(Transfer::usb_side) &&
+        !transfer_.piece(now, Transfer::usb_side, true, transfer_.position(), unwritten_)) {
+        transfer_.close(now, Transfer::usb_side);
+        source_.on.events.raise(event("host.write_failed"));
     }
     unwritten_.clear();
 }
 
 void HostCommands::stream() {
-    Motion& motion = source_.printer.motion;
+    Motion& motion = source_.on.motion;
     while (source_.arc.active() && motion.can_stream()) {
         stream_arc(source_);
     }
@@ -132,21 +124,20 @@ void HostCommands::advance(SimTime now) {
         stream();
     }
     if (busy_ <= now) {
-        busy_ = now + from_seconds(source_.printer.config().host.busy_s);
-        source_.printer.events.raise(EventId::host_busy);
+        busy_ = now + from_seconds(config_.busy_s);
+        source_.on.events.raise(event("host.busy"));
     }
 }
 
-SimTime HostCommands::next_of_command() const {
-    const SimTime now = source_.printer.now();
+SimTime HostCommands::next_of_command(SimTime now) const {
     SimTime next = busy_;
     if (source_.wake > now) {
         next = std::min(next, source_.wake);
     }
-    if (source_.arc.active() && source_.printer.motion.can_stream()) {
+    if (source_.arc.active() && source_.on.motion.can_stream()) {
         next = std::min(next, now);
     }
     return next;
 }
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::filament

@@ -3,12 +3,13 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
+#include "emulator/filament/config.h"
 #include "emulator/filament/gcode_codes.h"
-#include "emulator/machine/machine_config.h"
-#include "emulator/machine/sim_time.h"
+#include "emulator/filament/names.h"
 
-namespace fauxboard::machine {
+namespace fauxboard::filament {
 
 /// Everything a job needs to go on after the power was gone: where the move under way began, in the file and
 /// in the machine.
@@ -31,15 +32,9 @@ struct JobPlace {
     bool relative_e = false;
 };
 
-/// Where the place of a job outlives the board. keep() is called for every move: it must be quick, and a kill
-/// at any moment must leave the place kept before or the new one.
-class JobPlaceStore {
-  public:
-    virtual ~JobPlaceStore() = default;
-    /// The place kept last; nothing when it was dropped, or never kept, or is broken.
-    virtual std::optional<JobPlace> load() = 0;
-    virtual void keep(const JobPlace& place) = 0;
-    virtual void drop() = 0;
-};
+/// The place as bytes, into `out`; empty when its path is too long to be kept.
+void put_place(const JobPlace& place, std::string& out);
+/// The place that the bytes say; nothing when they cannot be one.
+std::optional<JobPlace> place_from(std::string_view bytes);
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::filament

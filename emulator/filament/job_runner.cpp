@@ -4,9 +4,12 @@
 #include <span>
 #include <vector>
 
-#include "emulator/machine/printer.h"
+#include "emulator/filament/event_rows.h"
+#include "emulator/filament/heating_wait.h"
+#include "emulator/filament/motion.h"
+#include "emulator/filament/names.h"
 
-namespace fauxboard::machine {
+namespace fauxboard::filament {
 namespace {
 
 /// Read in so long a time at most; what is more has to wait until it is over.
@@ -32,20 +35,20 @@ void JobRunner::power_on() {
 void JobRunner::start(SimTime now) {
     stop();
     lines_ = unknown_codes_ = source_.moves = 0;
-    printer_.modal = {};
+    on_.modal = {};
     wake_ = source_.wake = source_.now = now;
     read_tail();
-    const Volume* volume = printer_.storage.volume(printer_.job.volume());
+    const Volume* volume = storage_.volume(on_.job.volume());
     if (volume != nullptr) {
-        scout_.open(*volume, printer_.job.path());
+        scout_.open(*volume, on_.job.path());
         scout(scout_first_bytes);
     }
-    printer_.job.estimate_s = notes_.seconds();
+    on_.job.estimate_s = notes_.seconds();
     seek();
 }
 
 void JobRunner::pause() {
-    paused_at_ = printer_.motion.planned();
+    paused_at_ = on_.motion.planned();
 }
 
 void JobRunner::resume(SimTime now) {
@@ -54,7 +57,7 @@ void JobRunner::resume(SimTime now) {
     if (!held_) {
         seek();
     }
-    const AxisValues at = printer_.motion.planned();
+    const AxisValues at = on_.motion.planned();
     if (at == paused_at_) {
         return;
     }
@@ -64,19 +67,19 @@ void JobRunner::resume(SimTime now) {
     back[0].feed_mm_s = return_feed_mm_s;
     back[1].values = {std::nullopt, std::nullopt, paused_at_[2], std::nullopt};
     back[1].feed_mm_s = return_z_feed_mm_s;
-    printer_.motion.set_position({std::nullopt, std::nullopt, std::nullopt, paused_at_[3]});
-    printer_.motion.run(back, now, printer_.events);
+    on_.motion.set_position({std::nullopt, std::nullopt, std::nullopt, paused_at_[3]});
+    on_.motion.run(back, now, on_.events);
 }
 
 void JobRunner::seek() {
     held_ = ended_ = false;
-    enough_byte_ = printer_.job.place() + breath_bytes;
-    const Volume* volume = printer_.storage.volume(printer_.job.volume());
+    enough_byte_ = on_.job.place() + breath_bytes;
+    const Volume* volume = storage_.volume(on_.job.volume());
     reader_.close();
     if (volume != nullptr) {
-        reader_.open(*volume, printer_.job.path(), printer_.job.place());
+        reader_.open(*volume, on_.job.path(), on_.job.place());
     }
-    source_.byte = printer_.job.place();
+    source_.byte = on_.job.place();
 }
 
 void JobRunner::stop() {
@@ -91,35 +94,35 @@ void JobRunner::stop() {
 
 void JobRunner::finished(SimTime now) {
     stop();
-    close_ = now + from_seconds(printer_.config().job.finished_s);
+    close_ = now + from_seconds(config_.finished_s);
 }
 
 std::uint64_t JobRunner::executed_byte() const {
     const bool pending = source_.arc.active() || held_;
-    return printer_.motion.streamed_byte(pending ? source_.byte : printer_.job.place());
+    return on_.motion.streamed_byte(pending ? source_.byte : on_.job.place());
 }
 
 /// Whether lines are being read and carried out at all.
 bool JobRunner::reading() const {
-    return printer_.job.status() == JobStatus::printing && !printer_.job.pausing() && !printer_.wait.active();
+    return on_.job.status() == JobStatus::printing && !on_.job.pausing() && !on_.wait.active();
 }
 
-SimTime JobRunner::next_event() const {
+SimTime JobRunner::next_event(SimTime now) const {
     if (close_ != never) {
         return close_;
     }
     if (!reading()) {
         return never;
     }
-    const bool may = held_ || ended_ ? !printer_.motion.busy() : printer_.motion.can_stream();
-    return may ? std::max(wake(), printer_.now()) : never;
+    const bool may = held_ || ended_ ? !on_.motion.busy() : on_.motion.can_stream();
+    return may ? std::max(wake(), now) : never;
 }
 
 void JobRunner::advance(SimTime now) {
     source_.now = now;
     if (close_ <= now) {
         close_ = never;
-        printer_.close_job();
+        on_.control.close_job();
     }
     if (wake() > now || !reading()) {
         return;
@@ -138,17 +141,17 @@ void JobRunner::advance(SimTime now) {
             wake_ = std::max(wake_, breath_end_);
         }
     }
-    if (open && printer_.job.active()) {
-        printer_.job.set_byte(static_cast<double>(reader_.byte()));
+    if (open && on_.job.active()) {
+        on_.job.set_byte(static_cast<double>(reader_.byte()));
     }
 }
 
 /// One step of the work; false when there is none to be done now.
 bool JobRunner::piece() {
-    Motion& motion = printer_.motion;
+    Motion& motion = on_.motion;
     if (ended_) {
         if (!motion.busy()) {
-            printer_.finish_job();
+            on_.control.finish_job();
         }
         return false;
     }
@@ -168,13 +171,13 @@ bool JobRunner::piece() {
 
 /// Reads and parses the next line. False when there is none.
 bool JobRunner::fetch() {
-    const Volume* volume = printer_.storage.volume(printer_.job.volume());
+    const Volume* volume = storage_.volume(on_.job.volume());
     if (volume == nullptr || !reader_.is_open()) {
         lose_file();
         return false;
     }
     std::string_view text;
-    source_.byte = std::min(reader_.byte(), printer_.job.bytes());  // the file may have grown meanwhile
+    source_.byte = std::min(reader_.byte(), on_.job.bytes());  // the file may have grown meanwhile
     switch (reader_.next(text)) {
         case GcodeReader::Result::line:
             break;
@@ -195,15 +198,15 @@ bool JobRunner::fetch() {
 
 void JobRunner::take_comment() {
     if (notes_.take(line_.comment)) {
-        printer_.job.layer = notes_.layer();
-        printer_.job.layers = std::max(notes_.layers(), printer_.job.layers);
+        on_.job.layer = notes_.layer();
+        on_.job.layers = std::max(notes_.layers(), on_.job.layers);
     }
-    printer_.job.estimate_s = notes_.seconds();
+    on_.job.estimate_s = notes_.seconds();
 }
 
 void JobRunner::execute() {
     const GcodeCode* code = line_.letter == 0 ? nullptr : find_code(line_.letter, line_.code);
-    held_ = code != nullptr && code->at_rest && printer_.motion.busy();
+    held_ = code != nullptr && code->at_rest && on_.motion.busy();
     if (held_ || line_.letter == 0) {
         return;
     }
@@ -216,10 +219,9 @@ void JobRunner::execute() {
 
 /// The file is gone. The job pauses, so that it can go on when the card is back.
 void JobRunner::lose_file() {
-    printer_.pause_job();
-    const bool there =
-        printer_.storage.look(printer_.job.volume(), printer_.job.path()) == Volume::Kind::unreadable;
-    printer_.events.raise(there ? EventId::job_file_unreadable : EventId::job_file_lost);
+    on_.control.pause_job(true);
+    const bool there = storage_.look(on_.job.volume(), on_.job.path()) == Volume::Kind::unreadable;
+    on_.events.raise(there ? event("job.file_unreadable") : event("job.file_lost"));
 }
 
 /// Reads some of the file ahead of the job, for its layers only. Ends when a comment told their number, at
@@ -242,22 +244,22 @@ void JobRunner::scout(std::uint64_t bytes) {
         notes_.set_layers(scout_notes_.layer());
     }
     if (notes_.layers() != 0 || result != GcodeReader::Result::line) {
-        printer_.job.layers = notes_.layers();
+        on_.job.layers = notes_.layers();
         scout_.close();
     }
 }
 
 /// Looks into the end of the file for what its slicer tells only there.
 void JobRunner::read_tail() {
-    const Volume* volume = printer_.storage.volume(printer_.job.volume());
+    const Volume* volume = storage_.volume(on_.job.volume());
     if (volume == nullptr) {
         return;
     }
     std::uint64_t bytes = 0;
-    volume->look(printer_.job.path(), bytes);
+    volume->look(on_.job.path(), bytes);
     std::vector<char> tail(static_cast<std::size_t>(std::min(bytes, tail_bytes)));
-    const auto got = volume->read(printer_.job.path(), bytes - tail.size(), std::span<char>(tail));
+    const auto got = volume->read(on_.job.path(), bytes - tail.size(), std::span<char>(tail));
     notes_.take_tail({tail.data(), std::min(got.value_or(0), tail.size())});
 }
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::filament

@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "emulator/filament/config.h"
 #include "emulator/filament/gcode_codes.h"
 #include "emulator/filament/gcode_line.h"
 #include "emulator/filament/gcode_reader.h"
+#include "emulator/filament/names.h"
 #include "emulator/filament/slicer_comments.h"
-#include "emulator/machine/machine_config.h"
-#include "emulator/machine/sim_time.h"
 
-namespace fauxboard::machine {
-
-class Printer;
+namespace fauxboard::filament {
 
 /// What a job's file was found to hold, since the start of the job.
 struct JobCounts {
@@ -29,7 +27,8 @@ struct JobCounts {
 /// in which they end (400 KB/s, what such boards read from a card), so that no file can hold the board up.
 class JobRunner {
   public:
-    explicit JobRunner(Printer& printer) : printer_(printer), source_{printer} {}
+    JobRunner(GcodeMachine& on, const Storage& storage, const JobConfig& config)
+        : on_(on), storage_(storage), config_(config), source_{on} {}
 
     void power_on();
     /// The job starts, at its place().
@@ -46,7 +45,7 @@ class JobRunner {
     void finished(SimTime now);
 
     void advance(SimTime now);
-    SimTime next_event() const;
+    SimTime next_event(SimTime now) const;
     /// A finished job is still shown, for a while.
     bool shows_finished() const { return close_ != never; }
 
@@ -65,7 +64,9 @@ class JobRunner {
     void scout(std::uint64_t bytes);
     void lose_file();
 
-    Printer& printer_;
+    GcodeMachine& on_;
+    const Storage& storage_;
+    const JobConfig& config_;
     GcodeReader reader_;
     GcodeLine line_;
     SlicerNotes notes_;
@@ -83,4 +84,4 @@ class JobRunner {
     AxisValues paused_at_{};
 };
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::filament

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fauxboard::machine {
+namespace fauxboard::filament {
 namespace {
 
 constexpr double max_height_mm = 1000;
@@ -120,4 +120,4 @@ bool Mixer::set_end_height(double mm) {
     return true;
 }
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::filament

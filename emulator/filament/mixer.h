@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-namespace fauxboard::machine {
+namespace fauxboard::filament {
 
 /// Shares of the three extruder channels, percent; they add up to 100.
 using Ratio = std::array<int, 3>;
@@ -65,4 +65,4 @@ class Mixer {
     int template_ = 0;
 };
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::filament

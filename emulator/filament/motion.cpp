@@ -1,9 +1,11 @@
 #include "emulator/filament/motion.h"
+#include "emulator/filament/event_rows.h"
+#include "emulator/filament/names.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace fauxboard::machine {
+namespace fauxboard::filament {
 namespace {
 
 using Kind = ProcedureStep::Kind;
@@ -303,8 +305,8 @@ bool Motion::fails(const Step& step, EventQueue& events) {
     if (failed) {
         abort();
         homed_ = 0;
-        events.raise(probes && faults_.probe_alarm ? EventId::leveling_probe_alarm
-                                                   : EventId::motion_homing_failed);
+        events.raise(probes && faults_.probe_alarm ? event("leveling.probe_alarm")
+                                                   : event("motion.homing_failed"));
     }
     return failed;
 }
@@ -366,4 +368,4 @@ double Motion::bed_height_mm(double x, double y) const {
     return front * (1 - fv) + back * fv;
 }
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::filament

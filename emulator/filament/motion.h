@@ -4,13 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "emulator/filament/config.h"
+#include "emulator/filament/names.h"
 #include "emulator/filament/planner.h"
-#include "emulator/machine/events.h"
-#include "emulator/machine/machine_config.h"
-#include "emulator/machine/sim_time.h"
-#include "emulator/machine/state.h"
+#include "emulator/filament/state.h"
 
-namespace fauxboard::machine {
+namespace fauxboard::filament {
 
 /// A G0/G1 as it stands on the line.
 struct MoveRequest {
@@ -144,4 +143,4 @@ class Motion {
     double extruded_ = 0;
 };
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::filament

@@ -1,9 +1,10 @@
 #include "emulator/filament/planner.h"
+#include "emulator/filament/names.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace fauxboard::machine {
+namespace fauxboard::filament {
 namespace {
 
 /// Marlin's MINIMUM_PLANNER_SPEED, mm/s: what counts as standing still.
@@ -171,4 +172,4 @@ void Planner::shift(std::size_t axis, double mm) {
     }
 }
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::filament

@@ -4,11 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "emulator/machine/machine_config.h"
-#include "emulator/machine/sim_time.h"
-#include "emulator/machine/state.h"
+#include "emulator/filament/config.h"
+#include "emulator/filament/names.h"
+#include "emulator/filament/state.h"
 
-namespace fauxboard::machine {
+namespace fauxboard::filament {
 
 /// The look-ahead planner of Marlin 1.x, from which the Smartto firmware descends: moves wait in a ring of
 /// blocks; how fast one may pass into the next is bounded by the jerk of each axis, by what can still be
@@ -97,4 +97,4 @@ class Planner {
 /// Seconds for `length` mm from speed `from` to speed `to` at `acceleration` both ways, `nominal` at most.
 double trapezoid_seconds(double length, double from, double nominal, double to, double acceleration);
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::filament

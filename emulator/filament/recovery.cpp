@@ -1,24 +1,32 @@
 #include "emulator/filament/recovery.h"
 
-#include "emulator/machine/printer.h"
+#include "emulator/filament/event_rows.h"
+#include "emulator/filament/heating_wait.h"
+#include "emulator/filament/job_runner.h"
+#include "emulator/filament/motion.h"
+#include "emulator/filament/names.h"
+#include "emulator/filament/procedures.h"
+#include "emulator/filament/state.h"
 
-namespace fauxboard::machine {
+namespace fauxboard::filament {
 namespace {
 
 constexpr double travel_feed_mm_s = 100;
 constexpr double z_feed_mm_s = 20;
+constexpr unsigned x_and_y = 3;
 
 }  // namespace
 
-void Recovery::load(JobPlaceStore* store) {
+void Recovery::load(machine::JobPlaceStore* store) {
     store_ = store;
     if (store_ != nullptr) {
-        place_ = store_->load();
+        const auto bytes = store_->load();
+        place_ = bytes ? place_from(*bytes) : std::nullopt;
     }
 }
 
 const JobPlace* Recovery::saved() const {
-    return place_ && !printer_.job.active() ? &*place_ : nullptr;
+    return place_ && !on_.job.active() ? &*place_ : nullptr;
 }
 
 void Recovery::drop() {
@@ -30,12 +38,12 @@ void Recovery::drop() {
     }
 }
 
-void Recovery::keep() {
-    const Job& job = printer_.job;
+void Recovery::keep(SimTime now) {
+    const Job& job = on_.job;
     if (!job.active() || step_ != Step::none) {
         return;
     }
-    const std::uint64_t byte = printer_.runner.executed_byte();
+    const std::uint64_t byte = runner_.executed_byte();
     if (place_ && place_->byte == byte && place_->path == job.path() && place_->volume == job.volume()) {
         return;
     }
@@ -46,19 +54,20 @@ void Recovery::keep() {
     place.byte = byte;
     place.layer = job.layer;
     place.layers = job.layers;
-    place.elapsed = job.elapsed(printer_.now());
-    const Motion& motion = printer_.motion;
+    place.elapsed = job.elapsed(now);
+    const Motion& motion = on_.motion;
     place.at = motion.executed();
-    place.nozzle_c = printer_.thermal.target_c(HeaterId::nozzle);
-    place.bed_c = printer_.thermal.target_c(HeaterId::bed);
-    place.part_fan_percent = printer_.fans.part_percent;
+    place.nozzle_c = on_.thermal.target_c(HeaterId::nozzle);
+    place.bed_c = on_.thermal.target_c(HeaterId::bed);
+    place.part_fan_percent = on_.fans.part_percent;
     place.speed_percent = motion.speed_percent();
     place.flow_percent = motion.flow_percent();
-    place.modal = printer_.modal;
+    place.modal = on_.modal;
     place.relative = motion.relative();
     place.relative_e = motion.relative_e_alone();
     if (store_ != nullptr) {
-        store_->keep(place);
+        put_place(place, kept_);
+        store_->keep(kept_);
     }
 }
 
@@ -66,85 +75,86 @@ bool Recovery::begin() {
     if (saved() == nullptr) {
         return false;
     }
-    const Volume* volume = printer_.storage.volume(place_->volume);
+    const Volume* volume = storage_.volume(place_->volume);
     std::uint64_t bytes = 0;
     if (volume == nullptr || volume->look(place_->path, bytes) != Volume::Kind::file ||
         bytes != place_->bytes) {
-        printer_.events.raise(EventId::file_missing);
+        on_.events.raise(event("file.missing"));
         return false;
     }
-    printer_.job.select(place_->volume, place_->path, place_->bytes);
-    printer_.job.recover(place_->byte, place_->elapsed);
-    printer_.job.layer = place_->layer;
-    printer_.job.layers = place_->layers;
+    on_.job.select(place_->volume, place_->path, place_->bytes);
+    on_.job.recover(place_->byte, place_->elapsed);
+    on_.job.layer = place_->layer;
+    on_.job.layers = place_->layers;
     step_ = Step::bed;
     return true;
 }
 
-SimTime Recovery::next_step() const {
-    const bool waits = printer_.wait.active() || printer_.motion.busy();
-    return waits ? never : printer_.now();
+SimTime Recovery::next_step(SimTime now) const {
+    const bool waits = on_.wait.active() || on_.motion.busy();
+    return waits ? never : now;
 }
 
-void Recovery::heat(HeaterId heater, double c) {
-    printer_.thermal.set_target(heater, c);
-    if (printer_.thermal.heating(heater) && !printer_.thermal.reached(heater)) {
-        printer_.wait.start(heater, printer_.now(), printer_.events);
+void Recovery::heat(HeaterId heater, double c, SimTime now) {
+    on_.thermal.set_target(heater, c);
+    if (on_.thermal.heating(heater) && !on_.thermal.reached(heater)) {
+        on_.wait.start(heater, now, on_.events);
     }
 }
 
-void Recovery::travel() {
-    printer_.motion.set_position({std::nullopt, std::nullopt, place_->at[2], place_->at[3]});
+void Recovery::travel(SimTime now) {
+    on_.motion.set_position({std::nullopt, std::nullopt, place_->at[2], place_->at[3]});
     Procedure way(2);
     way[0].kind = way[1].kind = ProcedureStep::Kind::to;
     way[0].values = {place_->at[0], place_->at[1], std::nullopt, std::nullopt};
     way[0].feed_mm_s = travel_feed_mm_s;
     way[1].values = {std::nullopt, std::nullopt, place_->at[2], std::nullopt};
     way[1].feed_mm_s = z_feed_mm_s;
-    printer_.motion.run(way, printer_.now(), printer_.events);
+    on_.motion.run(way, now, on_.events);
 }
 
-void Recovery::print() {
+void Recovery::print(SimTime now) {
     const JobPlace place = *place_;
-    printer_.continue_recovered_job();
-    printer_.job.layer = place.layer;
-    printer_.job.layers = place.layers;
-    printer_.modal = place.modal;
-    printer_.fans.part_percent = place.part_fan_percent;
-    printer_.motion.set_speed_percent(place.speed_percent);
-    printer_.motion.set_flow_percent(place.flow_percent);
-    printer_.motion.set_relative(place.relative);
-    printer_.motion.set_relative_e(place.relative_e);
+    on_.job.go_on(now);
+    runner_.start(now);
+    on_.events.raise(event("job.started"));
+    on_.job.layer = place.layer;
+    on_.job.layers = place.layers;
+    on_.modal = place.modal;
+    on_.fans.part_percent = place.part_fan_percent;
+    on_.motion.set_speed_percent(place.speed_percent);
+    on_.motion.set_flow_percent(place.flow_percent);
+    on_.motion.set_relative(place.relative);
+    on_.motion.set_relative_e(place.relative_e);
 }
 
-void Recovery::advance(SimTime) {
-    while (step_ != Step::none && !printer_.wait.active() && !printer_.motion.busy()) {
+void Recovery::advance(SimTime now) {
+    while (step_ != Step::none && !on_.wait.active() && !on_.motion.busy()) {
         switch (step_) {
             case Step::none:
                 break;
             case Step::bed:
                 step_ = Step::nozzle;
-                heat(HeaterId::bed, place_->bed_c);
+                heat(HeaterId::bed, place_->bed_c, now);
                 break;
             case Step::nozzle:
                 step_ = Step::home;
-                heat(HeaterId::nozzle, place_->nozzle_c);
+                heat(HeaterId::nozzle, place_->nozzle_c, now);
                 break;
             case Step::home:
                 step_ = Step::travel;
-                printer_.home(static_cast<unsigned>(Printer::HomeAxes::x) |
-                              static_cast<unsigned>(Printer::HomeAxes::y));
+                on_.moves.home(x_and_y, now);
                 break;
             case Step::travel:
                 step_ = Step::print;
-                travel();
+                travel(now);
                 break;
             case Step::print:
                 step_ = Step::none;
-                print();
+                print(now);
                 break;
         }
     }
 }
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::filament

@@ -4,22 +4,24 @@
 #include <optional>
 
 #include "emulator/filament/job_place.h"
+#include "emulator/filament/names.h"
 #include "emulator/filament/thermal.h"
-#include "emulator/machine/sim_time.h"
+#include "emulator/machine/services.h"
 
-namespace fauxboard::machine {
+namespace fauxboard::filament {
 
-class Printer;
+class JobRunner;
 
 /// Keeps the place of the job under way, and after a power loss takes the job up again there: heats the bed,
 /// then the nozzle, homes X and Y (the part stands in Z's way), goes to where the head was, and prints on.
 /// Which of these steps a real board takes, and in which order, is not recorded.
 class Recovery {
   public:
-    explicit Recovery(Printer& printer) : printer_(printer) {}
+    Recovery(GcodeMachine& on, const Storage& storage, JobRunner& runner)
+        : on_(on), storage_(storage), runner_(runner) {}
 
     /// Looks for a job that was cut off before this machine was made.
-    void load(JobPlaceStore* store);
+    void load(machine::JobPlaceStore* store);
     void power_on() { step_ = Step::none; }
 
     /// A job that was cut off and neither taken up nor dropped.
@@ -33,23 +35,26 @@ class Recovery {
     void abort() { step_ = Step::none; }
 
     /// To be called when the job may have come further.
-    void keep();
+    void keep(SimTime now);
     void advance(SimTime now);
-    SimTime next_event() const { return step_ == Step::none ? never : next_step(); }
+    SimTime next_event(SimTime now) const { return step_ == Step::none ? never : next_step(now); }
     bool active() const { return step_ != Step::none; }
 
   private:
     enum class Step : std::uint8_t { none, bed, nozzle, home, travel, print };
 
-    SimTime next_step() const;
-    void heat(HeaterId heater, double c);
-    void travel();
-    void print();
+    SimTime next_step(SimTime now) const;
+    void heat(HeaterId heater, double c, SimTime now);
+    void travel(SimTime now);
+    void print(SimTime now);
 
-    Printer& printer_;
-    JobPlaceStore* store_ = nullptr;
+    GcodeMachine& on_;
+    const Storage& storage_;
+    JobRunner& runner_;
+    machine::JobPlaceStore* store_ = nullptr;
     std::optional<JobPlace> place_;
+    std::string kept_;        ///< the place as bytes; the buffer is reused
     Step step_ = Step::none;  ///< what comes next
 };
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::filament

@@ -6,7 +6,7 @@
 
 #include "emulator/filament/gcode_line.h"
 
-namespace fauxboard::machine {
+namespace fauxboard::filament {
 namespace {
 
 constexpr double most_layers = 1e6;
@@ -159,4 +159,4 @@ void SlicerNotes::take_tail(std::string_view tail) {
     }
 }
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::filament

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string_view>
 
-namespace fauxboard::machine {
+namespace fauxboard::filament {
 
 /// What a slicer's comment tells about the print.
 struct SlicerNote {
@@ -43,4 +43,4 @@ class SlicerNotes {
     bool just_changed_ = false;  ///< a LAYER_CHANGE came, no BEFORE_LAYER_CHANGE since
 };
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::filament

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <utility>
 
+#include "emulator/filament/names.h"
 #include "emulator/filament/thermal_crosstalk.h"
 #include "emulator/filament/thermal_fold.h"
 
-namespace fauxboard::machine {
+namespace fauxboard::filament {
 
 namespace {
 
@@ -261,4 +262,4 @@ void Thermal::watch() {
     }
 }
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::filament

@@ -5,12 +5,13 @@
 #include <cstdint>
 #include <optional>
 
+#include "emulator/filament/names.h"
 #include "emulator/filament/thermal_config.h"
 #include "emulator/filament/thermal_pid.h"
 #include "emulator/filament/thermal_plant.h"
 #include "emulator/filament/thermal_protection.h"
 
-namespace fauxboard::machine {
+namespace fauxboard::filament {
 
 enum class HeaterId : std::uint8_t { nozzle, bed };
 
@@ -153,4 +154,4 @@ class Thermal {
     bool powered_{true};
 };
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::filament

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "emulator/machine/sim_time.h"
+#include "emulator/filament/names.h"
 
-namespace fauxboard::machine {
+namespace fauxboard::filament {
 
 // Everything the thermal part can be told. Plain values; the defaults are a Geeetech A30T (Smartto V1.xx.03),
 // fitted to a public recording of its screen line (GeeetechA30T, 2021-04-21).
@@ -157,4 +157,4 @@ struct ThermalConfig {
     SensorlessInputConfig t2{a30t_t2()};
 };
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::filament

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace fauxboard::machine {
+namespace fauxboard::filament {
 
 // Read off heating (22..193) and cooling (201..104) of the recording, the same within about 1 K. Where an
 // input jumps, its neighbour does so at the same temperature of the nozzle, which points to the ADC's
@@ -54,4 +54,4 @@ double measurement_noise(std::uint64_t seed, unsigned channel, std::uint64_t ind
     return (static_cast<double>(sum) - 2 * 65535.0) * (1.7320508075688772 / 65536.0);
 }
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::filament

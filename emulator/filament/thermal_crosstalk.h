@@ -4,7 +4,7 @@
 
 #include "emulator/filament/thermal_config.h"
 
-namespace fauxboard::machine {
+namespace fauxboard::filament {
 
 /// What an input without sensor reads while its neighbour is at `source_c`: the table of `config`, 0 when it
 /// is empty.
@@ -14,4 +14,4 @@ double cross_talk_c(const SensorlessInputConfig& config, double source_c);
 /// its arguments, so that the value of a measurement does not depend on how it was reached.
 double measurement_noise(std::uint64_t seed, unsigned channel, std::uint64_t index);
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::filament

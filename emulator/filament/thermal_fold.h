@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace fauxboard::machine {
+namespace fauxboard::filament {
 
 // The Smartto firmware of the A30T prints temperatures with the fraction inside each degree mirrored: 27.3 is
 // printed as 28.7, 28.0 as 28.0 (all four channels, all 1055 frames of the recording). So a rising
@@ -28,4 +28,4 @@ inline double unfold_temperature(double printed_c) {
     return degree == printed_c ? printed_c : 2.0 * degree - printed_c;
 }
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::filament

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace fauxboard::machine {
+namespace fauxboard::filament {
 
 double ThermalPid::update(double target_c, double printed_c) {
     const PidConfig& c = *config_;
@@ -29,4 +29,4 @@ void ThermalPid::off(double printed_c) {
     in_range_ = false;
 }
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::filament

@@ -2,7 +2,7 @@
 
 #include "emulator/filament/thermal_config.h"
 
-namespace fauxboard::machine {
+namespace fauxboard::filament {
 
 /// The heater controller of the Smartto firmware (structure of its public source; the gains of that source do
 /// not fit the recorded board). Called once per measurement with what the board prints, so it controls with
@@ -31,4 +31,4 @@ class ThermalPid {
     bool in_range_{false};
 };
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::filament

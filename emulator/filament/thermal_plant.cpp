@@ -1,9 +1,10 @@
 #include "emulator/filament/thermal_plant.h"
+#include "emulator/filament/names.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace fauxboard::machine {
+namespace fauxboard::filament {
 
 namespace {
 
@@ -143,4 +144,4 @@ void ThermalPlant::set_ambient(double c) {
     ambient_c_ = c;
 }
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::filament

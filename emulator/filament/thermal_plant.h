@@ -5,9 +5,10 @@
 #include <cstddef>
 #include <vector>
 
+#include "emulator/filament/names.h"
 #include "emulator/filament/thermal_config.h"
 
-namespace fauxboard::machine {
+namespace fauxboard::filament {
 
 /// Two heated masses and a sensor (the equations stand at PlantConfig), advanced exactly: the system is
 /// linear and the heater's output constant between measurements, so one period is one multiplication with a
@@ -74,4 +75,4 @@ class ThermalPlant {
     std::size_t idle_periods_;  // outputs of zero in a row, counted up to powers_.size()
 };
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::filament

@@ -1,8 +1,9 @@
 #include "emulator/filament/thermal_protection.h"
+#include "emulator/filament/names.h"
 
 #include <algorithm>
 
-namespace fauxboard::machine {
+namespace fauxboard::filament {
 namespace {
 
 /// What was too hot is no longer when it reads so much less. More than what folded readings jump by.
@@ -62,4 +63,4 @@ SimTime ThermalProtection::earliest(SimTime next) const {
     return std::min(next + runaway, due_ == never ? next + from_seconds(config_->watch_s) : due_);
 }
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::filament

@@ -2,10 +2,10 @@
 
 #include <cstdint>
 
+#include "emulator/filament/names.h"
 #include "emulator/filament/thermal_config.h"
-#include "emulator/machine/sim_time.h"
 
-namespace fauxboard::machine {
+namespace fauxboard::filament {
 
 enum class ThermalAlarm : std::uint8_t { none, too_cold, too_hot, no_rise, runaway };
 
@@ -43,4 +43,4 @@ class ThermalProtection {
     SimTime away_since_{0};  ///< reached: since when it is too far below
 };
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::filament

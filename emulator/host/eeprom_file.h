@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-#include "emulator/machine/printer.h"
+#include "emulator/machine/machine.h"
 
 namespace fauxboard::host {
 

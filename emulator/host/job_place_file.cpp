@@ -7,10 +7,8 @@
 
 #include <array>
 #include <cerrno>
-#include <cmath>
 #include <cstring>
 #include <system_error>
-#include <type_traits>
 #include <utility>
 
 #include "emulator/link/host_error.h"
@@ -18,10 +16,7 @@
 namespace fauxboard::host {
 namespace {
 
-using machine::JobPlace;
-
 constexpr std::uint64_t mark = 0x3145434C50424A46;  // "FJBPLCE1" in little endian, near enough
-constexpr std::size_t longest_path = 512;
 
 struct Head {
     std::uint64_t mark = 0;
@@ -30,20 +25,7 @@ struct Head {
     std::uint64_t checksum = 0;
 };
 
-/// The values of a place as they lie in the file; the path follows. This machine's byte order: the file does
-/// not travel.
-struct Values {
-    std::uint64_t bytes, byte;
-    std::int64_t elapsed_us;
-    std::int32_t volume, layer, layers, part_fan_percent, speed_percent, flow_percent;
-    std::array<double, 4> at;
-    double nozzle_c, bed_c, unit_mm, feed_mm_s;
-    std::array<double, 3> weights;
-    std::uint8_t relative, relative_e;
-    std::array<std::uint8_t, 6> nothing;
-};
-static_assert(std::is_trivially_copyable_v<Values>);
-static_assert(sizeof(Head) + sizeof(Values) + longest_path <= JobPlaceFile::slot_bytes);
+constexpr std::size_t longest = JobPlaceFile::slot_bytes - sizeof(Head);
 
 /// FNV-1a over words: against tearing, not against malice.
 std::uint64_t checksum(std::uint64_t sequence, std::string_view bytes) {
@@ -52,76 +34,6 @@ std::uint64_t checksum(std::uint64_t sequence, std::string_view bytes) {
         hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3U;
     }
     return hash;
-}
-
-/// Calls `pass(member, value)` for each member of a place and where it lies in the file: the one list for
-/// both ways.
-template <class Place, class Kept, class F>
-void each_value(Place& place, Kept& v, F&& pass) {
-    pass(place.bytes, v.bytes);
-    pass(place.byte, v.byte);
-    pass(place.volume, v.volume);
-    pass(place.layer, v.layer);
-    pass(place.layers, v.layers);
-    pass(place.part_fan_percent, v.part_fan_percent);
-    pass(place.speed_percent, v.speed_percent);
-    pass(place.flow_percent, v.flow_percent);
-    pass(place.at, v.at);
-    pass(place.nozzle_c, v.nozzle_c);
-    pass(place.bed_c, v.bed_c);
-    pass(place.modal.unit_mm, v.unit_mm);
-    pass(place.modal.feed_mm_s, v.feed_mm_s);
-    pass(place.modal.weights, v.weights);
-    pass(place.relative, v.relative);
-    pass(place.relative_e, v.relative_e);
-}
-
-template <class T>
-constexpr bool is_flag = std::is_same_v<std::remove_cvref_t<T>, bool>;
-
-Values values_of(const JobPlace& place) {
-    Values v{};
-    v.elapsed_us = place.elapsed.count();
-    each_value(place, v, [](const auto& from, auto& to) {
-        if constexpr (is_flag<decltype(from)>) {
-            to = from ? 1 : 0;
-        } else {
-            to = from;
-        }
-    });
-    return v;
-}
-
-bool sane(const Values& v) {
-    bool good = v.byte <= v.bytes && v.volume >= 0 && v.volume <= 1 && v.layer >= 0 && v.layers >= 0 &&
-                v.elapsed_us >= 0;
-    for (const double value : {v.at[0], v.at[1], v.at[2], v.at[3], v.nozzle_c, v.bed_c, v.unit_mm,
-                               v.feed_mm_s, v.weights[0], v.weights[1], v.weights[2]}) {
-        good = good && std::isfinite(value);
-    }
-    return good;
-}
-
-std::optional<JobPlace> place_of(std::string_view payload) {
-    Values v{};
-    if (payload.size() <= sizeof v) {
-        return std::nullopt;
-    }
-    std::memcpy(&v, payload.data(), sizeof v);
-    if (!sane(v)) {
-        return std::nullopt;
-    }
-    JobPlace place;
-    place.path = payload.substr(sizeof v);
-    place.elapsed = machine::SimTime{v.elapsed_us};
-    each_value(place, v, [](auto& to, const auto& from) {
-        if constexpr (is_flag<decltype(to)>) {
-            to = from != 0;
-        } else {
-            to = from;
-        }
-    });
-    return place;
 }
 
 }  // namespace
@@ -143,8 +55,8 @@ JobPlaceFile::JobPlaceFile(std::string file, OnTrouble on_trouble)
     }
 }
 
-std::optional<JobPlace> JobPlaceFile::load() {
-    std::optional<JobPlace> newest;
+std::optional<std::string> JobPlaceFile::load() {
+    std::optional<std::string> newest;
     for (int i = 0; i < 2; ++i) {
         std::array<char, slot_bytes> slot{};
         const ssize_t got = ::pread(fd_.get(), slot.data(), slot.size(), i * static_cast<off_t>(slot_bytes));
@@ -162,20 +74,13 @@ std::optional<JobPlace> JobPlaceFile::load() {
             continue;
         }
         sequence_ = head.sequence;
-        newest = place_of(payload);
+        newest = payload.empty() ? std::nullopt : std::optional<std::string>(payload);
     }
     return newest;
 }
 
-void JobPlaceFile::keep(const JobPlace& place) {
-    if (place.path.size() > longest_path) {
-        return drop();
-    }
-    std::array<char, slot_bytes> payload;
-    const Values v = values_of(place);
-    std::memcpy(payload.data(), &v, sizeof v);
-    std::memcpy(payload.data() + sizeof v, place.path.data(), place.path.size());
-    write({payload.data(), sizeof v + place.path.size()});
+void JobPlaceFile::keep(std::string_view place) {
+    write(place.substr(0, place.size() <= longest ? place.size() : 0));
 }
 
 void JobPlaceFile::drop() {

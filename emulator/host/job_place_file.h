@@ -2,11 +2,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 
-#include "emulator/filament/job_place.h"
 #include "emulator/link/unique_fd.h"
+#include "emulator/machine/services.h"
 
 namespace fauxboard::host {
 
@@ -21,8 +22,8 @@ class JobPlaceFile final : public machine::JobPlaceStore {
     /// file.
     JobPlaceFile(std::string file, OnTrouble on_trouble);
 
-    std::optional<machine::JobPlace> load() override;
-    void keep(const machine::JobPlace& place) override;
+    std::optional<std::string> load() override;
+    void keep(std::string_view place) override;
     void drop() override;
 
     const std::string& file() const { return file_; }

@@ -6,80 +6,32 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace fauxboard::machine {
 
-/// Things that happen to the machine by itself or as the result of an action. A profile's `events` section
-/// says what the board sends when one is raised. Order and number are private; the names in `events()` are
-/// the contract.
-enum class EventId : std::uint8_t {
-    motion_homed,
-    motion_axis_homed,
-    motion_homing_failed,
-    motion_bed_probed,
-    motion_probed,
-    motion_parked,
-    babystep_changed,
-    leveling_probe_alarm,
-    heating_wait_started,
-    heating_wait_report,
-    heating_wait_done,
-    heating_pid_question,
-    heater_nozzle_abnormal,
-    heater_bed_abnormal,
-    filament_piece,
-    filament_stopped,
-    filament_too_cold,
-    filament_inserted,
-    filament_removed,
-    filament_out,
-    card_inserted,
-    card_removed,
-    card_missing,
-    card_failed,
-    file_selected,
-    file_missing,
-    file_unreadable,
-    job_started,
-    job_pausing,
-    job_paused,
-    job_resumed,
-    job_stopped,
-    job_finished,
-    job_closed,
-    job_refused,
-    job_file_lost,
-    job_file_unreadable,
-    job_message,
-    job_waits_for_user,
-    host_done,
-    host_busy,
-    host_unknown,
-    host_wrong_number,
-    host_wrong_checksum,
-    host_no_checksum,
-    host_no_number,
-    host_write_failed,
-    power_lost,
-    job_layer_done,
-    board_reboot_due,
-    transfer_piece,
-    count_  // not an event
-};
+struct Kind;
 
-inline constexpr std::size_t event_count = static_cast<std::size_t>(EventId::count_);
-
+/// Something that happens to a machine by itself or as the result of an action. A profile's `events` section
+/// says what the board sends when one is raised. The name is the contract.
 struct EventInfo {
-    EventId id;
     std::string_view name;
     std::string_view help;
 };
 
-/// Every event, in the order of EventId.
-std::span<const EventInfo> events();
+/// An event is its row in a table: that of all machines (event_rows.h), or that of a kind.
+using EventId = const EventInfo*;
 
-/// The event called `name`, or nothing.
+/// Every event, those of all machines first, then each kind's. Names are unique among all of them.
+std::span<const EventId> events();
+/// The event called `name`, of whatever kind; nothing when there is none.
 std::optional<EventId> find_event(std::string_view name);
+
+/// The events that a machine of the kind may raise.
+std::vector<EventId> events_of(const Kind& kind);
+bool has_event(const Kind& kind, EventId event);
+/// The place of one of them in events_of().
+std::size_t event_index(const Kind& kind, EventId event);
 
 /// Events raised and not yet looked at, oldest first. Bounded: a full queue drops the newest and counts it,
 /// since a profile that loops on its own events must not grow the process.

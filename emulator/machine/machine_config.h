@@ -1,72 +1,9 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "emulator/filament/thermal_config.h"
-#include "emulator/machine/events.h"
-#include "emulator/machine/sim_time.h"
-#include "emulator/resin/resin_config.h"
-
 namespace fauxboard::machine {
-
-enum class Axis : std::uint8_t { x, y, z, e };
-inline constexpr std::size_t axis_count = 4;
-using AxisValues = std::array<double, axis_count>;
-using AxisTargets = std::array<std::optional<double>, axis_count>;
-
-/// One step of a motion procedure. Profiles list them; `Motion` carries them out.
-struct ProcedureStep {
-    enum class Kind : std::uint8_t {
-        zero,         ///< call the present place of the axes 0, as homing does before it moves
-        home,         ///< run the axes into their end stops, one after the other
-        to,           ///< go to absolute coordinates, mm
-        by,           ///< go by a distance, mm
-        probe,        ///< touch the bed here; Z becomes the measured height
-        homed,        ///< from here on the axes count as homed
-        wait,         ///< stand still
-        lose_rounds,  ///< the status wheel leaves out whole rounds (seen during every G28)
-        raise,        ///< raise an event
-    };
-    Kind kind = Kind::wait;
-    AxisTargets values{};    ///< to, by: mm. zero, home, homed: present = axis named
-    double feed_mm_s = 0;    ///< shown as F while it runs; 0 leaves the shown value alone
-    double seconds = -1;     ///< fixed duration; < 0: from distance and feed
-    int rounds = 0;          ///< lose_rounds
-    EventId event{};         ///< raise
-    bool reference = false;  ///< probe: what it touches here is what heights count from, as when homing Z
-};
-using Procedure = std::vector<ProcedureStep>;
-
-struct MotionConfig {
-    std::array<double, 3> volume_mm{320, 320, 420};
-    /// Where the head stands when the board is switched on: it reports 0, but homing takes as long as the way
-    /// is.
-    std::array<double, 3> power_on_mm{160, 200, 30};
-    double homing_feed_mm_s = 20;
-    double homing_bump_s = 4.5;    ///< per axis: second, slow touch of the end stop
-    unsigned planner_blocks = 16;  ///< moves accepted ahead of the one being executed
-    double default_feed_mm_s = 25;
-    /// Height of the bed above its nominal plane at 3 x 3 points, mm; rows front to back.
-    std::array<std::array<double, 3>, 3> bed_mesh_mm{};
-    double probe_trigger_mm = 2.5;  ///< logical Z at which the probe touches the nominal plane
-    std::array<double, 2> probe_offset_mm{-38.2, 0};
-    std::map<std::string, Procedure, std::less<>> procedures;
-};
-
-struct FilamentConfig {
-    double piece_s = 0.7197;       ///< one piece of endless loading; measured over 105 pieces
-    double piece_commit_s = 0.25;  ///< a stop later than this into a piece waits for the piece's end
-    int feed_mm_s = 1;             ///< shown as F and FR while loading
-    double min_extrude_c = 170;
-    /// A detector that feels the filament move, instead of whether it is there, calls it out after so much
-    /// was extruded and nothing moved; 0: it is a switch, as on the A30T.
-    double detector_mm = 0;
-};
 
 struct Identity {
     std::string device_name, model, serial_number, firmware, volume_text, hardware;
@@ -88,30 +25,12 @@ struct CardConfig {
     std::vector<BuiltInEntry> entries;
 };
 
-struct JobConfig {
-    /// How long a finished job is shown (PS:4) before the board is idle again. No request of the screens says
-    /// that the page was left, and the A30's opens its file list only while idle.
-    double finished_s = 10;
-};
-
-struct HostConfig {
-    /// A command of the USB side that takes longer than this raises `host.busy`, and again each time; 0:
-    /// never.
-    double busy_s = 2;
-};
-
+/// What a profile can say about a machine of any kind; a kind derives from it and adds its own.
 struct MachineConfig {
+    virtual ~MachineConfig() = default;
     Identity identity;
-    ThermalConfig thermal;
-    MotionConfig motion;
-    FilamentConfig filament;
     CardConfig card;
-    JobConfig job;
-    std::optional<ResinConfig> resin;  ///< a resin printer; nothing: one that melts filament
-    HostConfig host;
     bool udisk_port = false;
-    int board_fan_percent = 50;
-    double manual_level_start_mm = 8.0;
 };
 
 }  // namespace fauxboard::machine

@@ -54,6 +54,10 @@ bool respell(const Volume& volume, std::string& path) {
     return true;
 }
 
+bool quote(char c) {
+    return c == '\'' || c == '"';
+}
+
 }  // namespace
 
 bool clean_path(std::string_view folder, std::string_view name, std::string& out) {
@@ -261,6 +265,25 @@ bool Storage::remove(std::string_view name) {
     const Found found = find(name);
     Volume* const disk = writable(chosen_);
     return found.kind == Volume::Kind::file && disk != nullptr && disk->remove(found.path);
+}
+
+std::string_view bare_name(std::string_view name) {
+    const auto strip = [&](auto&& unwanted) {
+        while (!name.empty() && unwanted(name.front())) {
+            name.remove_prefix(1);
+        }
+    };
+    strip([](char c) { return c == ' ' || c == ':'; });
+    if (!name.empty() && quote(name.front())) {
+        const char mark = name.front();
+        name.remove_prefix(1);
+        name = name.substr(0, name.rfind(mark));  // the last one: a name may hold one
+    }
+    strip([](char c) { return c == ':'; });
+    while (name.ends_with(' ')) {
+        name.remove_suffix(1);
+    }
+    return name;
 }
 
 }  // namespace fauxboard::machine

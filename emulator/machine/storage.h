@@ -157,4 +157,9 @@ inline constexpr std::string_view unfinished_ending = ".temp";
 /// would leave the root, holds a control character, or is longer than 255 bytes.
 bool clean_path(std::string_view folder, std::string_view name, std::string& out);
 
+/// A name as requests bring it, without blanks, quotes and the colon of an absolute path: 'a.ctb', ':a.ctb'
+/// and
+/// :'a.ctb' all become a.ctb.
+std::string_view bare_name(std::string_view name);
+
 }  // namespace fauxboard::machine

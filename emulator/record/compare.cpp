@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "emulator/filament/config.h"
 #include "emulator/record/compare_talk.h"
 
 namespace fauxboard::record {
@@ -50,6 +51,11 @@ std::string or_none(const std::string& label) {
 }
 
 }  // namespace
+
+bool prints_folded(const behaviour::Profile& profile) {
+    const auto* config = dynamic_cast<const filament::Config*>(profile.machine.get());
+    return config != nullptr && config->thermal.fold;
+}
 
 Comparison compare(const std::vector<RecordedLine>& recording, const std::vector<RecordedLine>& ours,
                    bool folded, const Tolerances& tolerances) {

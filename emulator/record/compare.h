@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "emulator/behaviour/profile.h"
 #include "emulator/record/recording.h"
 
 namespace fauxboard::record {
@@ -107,8 +108,11 @@ struct Comparison {
     bool ok() const { return failures().empty(); }
 };
 
+/// Whether boards of the profile print temperatures with the fraction mirrored (see thermal_fold.h).
+bool prints_folded(const behaviour::Profile& profile);
+
 /// Compares what `ours` has from the board with what `recording` has, for the requests of `recording`.
-/// `folded`: both print temperatures with the fraction mirrored (see thermal_fold.h).
+/// `folded`: both print temperatures as prints_folded() says.
 Comparison compare(const std::vector<RecordedLine>& recording, const std::vector<RecordedLine>& ours,
                    bool folded, const Tolerances& tolerances = {});
 

@@ -38,7 +38,7 @@ std::vector<Sample> samples_of(const std::vector<Said>& talk, std::string_view k
         const double printed = *at->number;
         if (printed != 0) {  // 0.0: not measured yet
             out.push_back(
-                {said.t, folded ? machine::unfold_temperature(printed) : printed, *std::next(at)->number});
+                {said.t, folded ? filament::unfold_temperature(printed) : printed, *std::next(at)->number});
         }
     }
     return out;

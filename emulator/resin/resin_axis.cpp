@@ -1,9 +1,11 @@
 #include "emulator/resin/resin_axis.h"
+#include "emulator/resin/event_rows.h"
+#include "emulator/resin/names.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace fauxboard::machine {
+namespace fauxboard::resin {
 namespace {
 
 using Setting = ResinSetting;
@@ -175,7 +177,7 @@ void ResinAxis::advance(SimTime now, EventQueue& events) {
             zero_ = step.mm > 0 ? height_ - settings_[Setting::max_height] : height_ + offset;
             homed_ = true;
         } else if (step.kind == Step::Kind::homed) {
-            events.raise(EventId::motion_homed);
+            events.raise(event("motion.homed"));
         }
         head_ = (head_ + 1) % most_steps;
         --count_;
@@ -185,4 +187,4 @@ void ResinAxis::advance(SimTime now, EventQueue& events) {
     }
 }
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::resin

@@ -4,12 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "emulator/machine/events.h"
-#include "emulator/machine/sim_time.h"
-#include "emulator/resin/resin_config.h"
+#include "emulator/resin/config.h"
+#include "emulator/resin/names.h"
 #include "emulator/resin/resin_settings.h"
 
-namespace fauxboard::machine {
+namespace fauxboard::resin {
 
 /// The Z axis of a resin printer: a platform on a screw, with an end stop. Moves wait in a queue of fixed
 /// size; each is closed in time (constant acceleration up and down), so that the place at any moment is
@@ -78,4 +77,4 @@ class ResinAxis {
     SimTime end_{0};
 };
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::resin

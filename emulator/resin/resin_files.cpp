@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <string_view>
 
-#include "emulator/machine/printer.h"
+#include "emulator/resin/printer.h"
 
-namespace fauxboard::machine {
+namespace fauxboard::resin {
 namespace {
 
 using enum ResinSetting;
@@ -24,8 +24,8 @@ std::string value_text(const ResinSettingInfo& info, const ResinSettings& settin
 }
 
 std::string version_line(const Printer& printer) {
-    const Identity& own = printer.config().identity;
-    const ResinSettings& settings = printer.resin->edited;
+    const machine::Identity& own = printer.config().identity;
+    const ResinSettings& settings = printer.edited;
     return "; Version: " + own.firmware +
            format(" / %dx%d /", static_cast<int>(settings[resolution_x]),
                   static_cast<int>(settings[resolution_y])) +
@@ -109,7 +109,7 @@ std::string id_text(std::string_view words) {
 
 std::string backup_text(const Printer& printer) {
     const auto table = resin_settings();
-    const ResinSettings& settings = printer.resin->edited;
+    const ResinSettings& settings = printer.edited;
     std::string out =
         version_line(printer) +
         " ';' is followed by a comment\n"
@@ -125,12 +125,12 @@ std::string backup_text(const Printer& printer) {
 
 std::string diagnostics_text(const Printer& printer) {
     constexpr const char* padded = "%-19s; ";
-    const ResinConfig& config = *printer.config().resin;
+    const ResinConfig& config = printer.config().resin;
     std::string out = version_line(printer) + "\n\"" + printer.wifi.ssid +
                       "\"\n; ID: " + id_text(printer.config().identity.serial_number) +
                       "\n;; update: update.SH4\n;; update: update.SH4\n";
     for (std::size_t i = 0; i < status_words.size(); ++i) {
-        const bool broken = i == memory_word && printer.storage.state(0) == DiskState::failed;
+        const bool broken = i == memory_word && printer.storage.state(0) == machine::DiskState::failed;
         out += format("; status.%-16s%x; %s\n", status_words[i].name,
                       config.status[i] | (broken ? stick_bit : 0), status_words[i].comment);
     }
@@ -139,10 +139,10 @@ std::string diagnostics_text(const Printer& printer) {
     for (const Diagnosed& line : diagnosed) {
         const auto index = static_cast<std::size_t>(line.id);
         const ResinSettingInfo& info = resin_settings()[index];
-        out += format(padded, request_text(index, printer.resin->edited).c_str()) +
+        out += format(padded, request_text(index, printer.edited).c_str()) +
                std::string(line.comment.empty() ? comment_of(info) : line.comment) + "\n";
     }
     return out + format(padded, "M8500") + "save configuration\n";
 }
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::resin

@@ -6,9 +6,11 @@
 #include <utility>
 
 #include "emulator/machine/disk_source.h"
-#include "emulator/machine/printer.h"
+#include "emulator/resin/event_rows.h"
+#include "emulator/resin/names.h"
+#include "emulator/resin/printer.h"
 
-namespace fauxboard::machine {
+namespace fauxboard::resin {
 namespace {
 
 using Setting = ResinSetting;
@@ -42,11 +44,11 @@ void ResinJob::power_on() {
 }
 
 bool ResinJob::open() {
-    const Volume* volume = printer_.storage.volume(printer_.job.volume());
-    if (volume == nullptr || !printer_.job.selected()) {
+    const Volume* volume = storage_.volume(job_.volume());
+    if (volume == nullptr || !job_.selected()) {
         return false;
     }
-    auto opened = sliced::SlicedFile::open(DiskSource(*volume, printer_.job.path()));
+    auto opened = sliced::SlicedFile::open(machine::DiskSource(*volume, job_.path()));
     if (!opened) {
         return false;
     }
@@ -61,8 +63,8 @@ void ResinJob::start(SimTime now) {
     index_ = 0;
     layer_ = {};
     dark_since_ = now;
-    printer_.job.layers = static_cast<int>(file_->header().layers);
-    printer_.job.estimate_s = file_->header().print_time_s;
+    job_.layers = static_cast<int>(file_->header().layers);
+    job_.estimate_s = file_->header().print_time_s;
     phase_ = Phase::homing;
     axis_.home(now);
 }
@@ -158,15 +160,15 @@ void ResinJob::begin_layer(SimTime now) {
         return;
     }
     phase_ = Phase::reading;
-    const Volume* volume = std::as_const(printer_.storage).volume(printer_.job.volume());
+    const Volume* volume = storage_.volume(job_.volume());
     if (volume == nullptr) {
-        lose_file(EventId::job_file_lost, now);
+        lose_file(event("job.file_lost"), now);
         return;
     }
-    const DiskSource source(*volume, printer_.job.path());
+    const machine::DiskSource source(*volume, job_.path());
     auto layer = file_->layer(source, index_);
     if (!layer) {
-        lose_file(source.size() == 0 ? EventId::job_file_lost : EventId::job_file_unreadable, now);
+        lose_file(source.size() == 0 ? event("job.file_lost") : event("job.file_unreadable"), now);
         return;
     }
     layer_ = *layer;
@@ -183,9 +185,9 @@ void ResinJob::approach(SimTime now) {
 void ResinJob::end_exposure(SimTime now) {
     dark_since_ = now;
     exposure_left_ = SimTime{0};
-    printer_.job.set_byte(static_cast<double>(layer_.end()));
-    printer_.job.layer = static_cast<int>(index_ + 1);
-    printer_.events.raise(EventId::job_layer_done);
+    job_.set_byte(static_cast<double>(layer_.end()));
+    job_.layer = static_cast<int>(index_ + 1);
+    events_.raise(event("job.layer_done"));
     lift(now);
 }
 
@@ -217,7 +219,7 @@ void ResinJob::finished(SimTime now) {
         axis_.motors_off(now);
     }
     if (!stopped_) {
-        printer_.finish_job();
+        control_.finish_job();
     }
     stopped_ = false;
 }
@@ -236,19 +238,18 @@ void ResinJob::hold(SimTime now) {
     phase_ = Phase::held;
     axis_.abort(now);
     if (axis_.homed()) {
-        axis_.move(printer_.config().resin->pause_lift_mm, true, settings_[Setting::lift_fast_speed] * 60,
-                   now);
+        axis_.move(config_.pause_lift_mm, true, settings_[Setting::lift_fast_speed] * 60, now);
     }
-    printer_.job.pause(now);
-    printer_.events.raise(EventId::job_paused);
+    job_.pause(now);
+    events_.raise(event("job.paused"));
 }
 
 void ResinJob::lose_file(EventId why, SimTime now) {
     pause_due_ = never;
     held_ = Phase::reading;
     phase_ = Phase::held;
-    printer_.job.pause(now);
-    printer_.events.raise(why);
+    job_.pause(now);
+    events_.raise(why);
 }
 
 void ResinJob::resume(SimTime now) {
@@ -292,4 +293,4 @@ double ResinJob::exposure_left_s(SimTime now) const {
     return to_seconds(exposing() ? until_ - now : exposure_left_);
 }
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::resin

@@ -4,14 +4,13 @@
 #include <optional>
 #include <string_view>
 
-#include "emulator/machine/sim_time.h"
+#include "emulator/machine/job_control.h"
+#include "emulator/resin/names.h"
 #include "emulator/resin/resin_axis.h"
 #include "emulator/resin/resin_settings.h"
 #include "emulator/sliced/sliced_file.h"
 
-namespace fauxboard::machine {
-
-class Printer;
+namespace fauxboard::resin {
 
 /// A print of a resin machine: homes, then layer by layer by the records of the file: down, dark until the
 /// resin rests, exposure, lift. The job's place is the end of the picture exposed last, never anything
@@ -33,8 +32,15 @@ class ResinJob {
         held        ///< paused
     };
 
-    ResinJob(Printer& printer, ResinAxis& axis, const ResinSettings& settings)
-        : printer_(printer), axis_(axis), settings_(settings) {}
+    ResinJob(const ResinConfig& config, ResinAxis& axis, const ResinSettings& settings, Job& job,
+             const Storage& storage, EventQueue& events, machine::JobControl& control)
+        : config_(config),
+          axis_(axis),
+          settings_(settings),
+          job_(job),
+          storage_(storage),
+          events_(events),
+          control_(control) {}
 
     void power_on();
     /// Reads the head of the selected file. False when it is no file that can be printed.
@@ -75,9 +81,13 @@ class ResinJob {
     void lose_file(EventId why, SimTime now);
     bool moves() const;
 
-    Printer& printer_;
+    const ResinConfig& config_;
     ResinAxis& axis_;
     const ResinSettings& settings_;
+    Job& job_;
+    const Storage& storage_;
+    EventQueue& events_;
+    machine::JobControl& control_;
     std::optional<sliced::SlicedFile> file_;
     sliced::Layer layer_{};
     std::uint32_t index_ = 0;  ///< of layer_
@@ -93,4 +103,4 @@ class ResinJob {
 /// "exposing": for fields and people.
 std::string_view to_string(ResinJob::Phase phase);
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::resin

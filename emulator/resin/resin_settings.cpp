@@ -1,9 +1,10 @@
 #include "emulator/resin/resin_settings.h"
+#include "emulator/resin/names.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace fauxboard::machine {
+namespace fauxboard::resin {
 namespace {
 
 using enum ResinSetting;
@@ -158,4 +159,4 @@ void ResinSettings::set(ResinSetting id, double value) {
     values_[index] = info.whole ? std::round(inside) : inside;
 }
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::resin

@@ -6,7 +6,7 @@
 #include <span>
 #include <string_view>
 
-namespace fauxboard::machine {
+namespace fauxboard::resin {
 
 /// The settings of a resin board, in the order in which a backup file lists them.
 enum class ResinSetting : std::uint8_t {
@@ -92,4 +92,4 @@ class ResinSettings {
     std::array<double, resin_setting_count> values_{};
 };
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::resin

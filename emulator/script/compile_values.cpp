@@ -100,16 +100,15 @@ void compile_event(Compiler& c, const Json& value, const std::string& at, Trigge
     const auto event = machine::find_event(name);
     if (!event) {
         std::vector<std::string_view> names;
-        for (const machine::EventInfo& info : machine::events()) {
-            names.push_back(info.name);
+        for (const machine::EventId info : machine::events()) {
+            names.push_back(info->name);
         }
         c.findings().add(at, fmt::format("unknown event \"{}\"", name),
                          std::string(behaviour::nearest(name, names)));
         return;
     }
     out.event = *event;
-    out.words =
-        fmt::format("the event {} ({})", name, machine::events()[static_cast<std::size_t>(*event)].help);
+    out.words = fmt::format("the event {} ({})", name, (*event)->help);
 }
 
 void compile_page(Compiler& c, const Json& value, const std::string& at, Trigger& out) {

@@ -166,9 +166,9 @@ class Loader {
 };
 
 void read_card(const Json& node, Findings& findings, const Cast& cast, Scenario& out) {
-    machine::MachineConfig machine = *cast.profile->machine;
-    behaviour::load_machine(Json{{"card", node}}, "", findings, machine);
-    out.card = std::make_shared<const std::vector<machine::BuiltInEntry>>(machine.card.entries);
+    machine::CardConfig card = cast.profile->machine->card;
+    behaviour::load_card(node, "/card", findings, card);
+    out.card = std::make_shared<const std::vector<machine::BuiltInEntry>>(std::move(card.entries));
 }
 
 std::vector<Step> Loader::body(Parameters& parameters, Findings& findings,

@@ -85,7 +85,7 @@ void Player::on_sent(SimTime now, board::Channel channel, std::string_view line)
 }
 
 void Player::on_event(SimTime now, machine::EventId event) {
-    keep_talk(now, Talk::From::event, machine::events()[static_cast<std::size_t>(event)].name);
+    keep_talk(now, Talk::From::event, event->name);
     push({Trigger::Kind::event, now, {}, event});
 }
 

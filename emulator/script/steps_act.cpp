@@ -120,7 +120,7 @@ std::string run_host(Acting& acting, const Step& step) {
         std::string line = step.bytes;
         if (step.numbered) {
             board.refresh(now);
-            line = fmt::format("N{} {}", board.machine().host.last_line + 1, line);
+            line = fmt::format("N{} {}", board.machine().host_side().last_line + 1, line);
             line += fmt::format("*{}", protocol::xor_checksum(line));
         }
         board.connect(board::Channel::host, true);
@@ -186,7 +186,7 @@ bool take_away(Acting& acting, const MadeFault& made) {
     }
     bool done = false;
     acting.stage.visit([&](board::Board& board, SimTime now) {
-        board.tinker(now, [&](machine::Printer& p) { done = p.breakdowns.remove(made.printer); });
+        board.tinker(now, [&](machine::Machine& m) { done = m.faults.remove(made.printer); });
     });
     return done;
 }
@@ -201,13 +201,16 @@ std::string run_fault(Acting& acting, const Step& step) {
     }
     MadeFault made;
     if (fault::is_for_printer(*step.fault)) {
+        std::string refusal;
         acting.stage.visit([&](board::Board& board, SimTime now) {
-            board.tinker(now, [&](machine::Printer& p) {
-                made.printer = p.breakdowns.add(now, fault::to_request(*step.fault));
+            board.tinker(now, [&](machine::Machine& m) {
+                const machine::FaultRequest request = fault::to_request(*step.fault);
+                made.printer = m.faults.add(now, request);
+                refusal = made.printer == 0 ? m.faults.refusal(*request.info) : "";
             });
         });
         if (made.printer == 0) {
-            return "the printer has too many faults already; clear some first";
+            return refusal;
         }
     } else {
         try {
@@ -246,7 +249,7 @@ std::string run_clear(Acting& acting, const Step& step) {
     if (step.text == all_faults) {
         acting.stage.faults()->clear();
         acting.stage.visit([](board::Board& board, SimTime now) {
-            board.tinker(now, [](machine::Printer& p) { p.breakdowns.clear(); });
+            board.tinker(now, [](machine::Machine& m) { m.faults.clear(); });
         });
         acting.faults.clear();
     } else if (const auto hit = acting.faults.find(step.text); hit != acting.faults.end()) {

@@ -11,6 +11,7 @@
 #include "emulator/behaviour/actions.h"
 #include "emulator/behaviour/fields.h"
 #include "emulator/behaviour/rule_compiler.h"
+#include "tests/support/printers.h"
 #include "tests/support/small_profile.h"
 
 namespace fauxboard::testing {
@@ -21,7 +22,8 @@ using std::string;
 
 struct Bench final : NoticeSink {
     std::shared_ptr<const Profile> profile;
-    machine::Printer machine{profile->machine, {}, 1};
+    std::unique_ptr<machine::Machine> made{profile->kind->make(profile->machine, {}, 1)};
+    machine::Machine& machine{*made};
     std::vector<double> variables{profile->variables[0].initial};
     std::vector<string> notices;
     bool reset = false;
@@ -66,7 +68,8 @@ struct Bench final : NoticeSink {
         }
         return found;
     }
-    void heat(double c) { machine.thermal.set_temperature(machine::HeaterId::nozzle, c); }
+    void heat(double c) { printer().thermal.set_temperature(filament::HeaterId::nozzle, c); }
+    filament::Printer& printer() { return filament_printer(machine); }
     void print() {
         run(R"([{"job.select": {"name": "a.gcode"}}, "job.start"])");
         machine.events.clear();

@@ -3,6 +3,7 @@
 #include "emulator/behaviour/action_words.h"
 
 #include "tests/behaviour/action_bench.h"
+#include "tests/support/printers.h"
 
 using namespace fauxboard;
 using namespace fauxboard::testing;
@@ -44,7 +45,7 @@ TEST_CASE("action words: a phrase where there is one, a name where that says all
 
 TEST_CASE("action words: a value that is looked up stands as it was when it was done") {
     Bench bench;
-    bench.machine.thermal.set_target(machine::HeaterId::bed, 45);
+    bench.printer().thermal.set_target(filament::HeaterId::bed, 45);
     CHECK(there_and_back(bench, R"({"heater.target": {"heater": "nozzle", "c": "{heaters.bed.target}"}})") ==
           R"({"heater.target":{"heater":"nozzle","c":45.0}})");
 }

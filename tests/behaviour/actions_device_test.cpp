@@ -1,5 +1,6 @@
 // What each action of leveling, card, job, EEPROM and the board itself does.
 
+#include "emulator/machine/event_rows.h"
 #include "tests/behaviour/action_bench.h"
 
 namespace fauxboard::testing {
@@ -25,19 +26,19 @@ const std::vector<ActionRow>& device_action_rows() {
          [](Bench& b) {
              b.run(R"(["card.remove", "card.insert"])");
              CHECK(b.number("card.usable") == 1);
-             CHECK(b.raised(EventId::card_inserted));
+             CHECK(b.raised(machine::event("card.inserted")));
          }},
         {"card.remove",
          [](Bench& b) {
              b.run(R"("card.remove")");
              CHECK(b.number("card.code") == 1);
-             CHECK(b.raised(EventId::card_removed));
+             CHECK(b.raised(machine::event("card.removed")));
          }},
         {"card.fail",
          [](Bench& b) {
              b.run(R"("card.fail")");
              CHECK(b.number("card.code") == 2);
-             CHECK(b.raised(EventId::card_failed));
+             CHECK(b.raised(machine::event("card.failed")));
              b.run(R"("card.insert")");
              CHECK(b.number("card.code") == 0);
          }},
@@ -45,7 +46,7 @@ const std::vector<ActionRow>& device_action_rows() {
          [](Bench& b) {
              b.run(R"("udisk.insert")");  // this board has no port for one
              CHECK_FALSE(b.machine.storage.usable(1));
-             CHECK_FALSE(b.raised(EventId::card_inserted));
+             CHECK_FALSE(b.raised(machine::event("card.inserted")));
          }},
         {"udisk.remove",
          [](Bench& b) {
@@ -54,7 +55,7 @@ const std::vector<ActionRow>& device_action_rows() {
              b.machine.storage.attach(1, &disk);
              b.run(R"("udisk.remove")");
              CHECK_FALSE(b.machine.storage.usable(1));
-             CHECK(b.raised(EventId::card_removed));
+             CHECK(b.raised(machine::event("card.removed")));
          }},
         {"udisk.fail",
          [](Bench& b) {
@@ -63,7 +64,7 @@ const std::vector<ActionRow>& device_action_rows() {
              b.machine.storage.attach(1, &disk);
              b.run(R"("udisk.fail")");
              CHECK(b.machine.storage.state(1) == machine::DiskState::failed);
-             CHECK(b.raised(EventId::card_failed));
+             CHECK(b.raised(machine::event("card.failed")));
          }},
         {"card.mount",
          [](Bench& b) {
@@ -76,7 +77,7 @@ const std::vector<ActionRow>& device_action_rows() {
          [](Bench& b) {
              b.run(R"("card.release")");
              CHECK(b.number("card.code") == 1);
-             CHECK_FALSE(b.raised(EventId::card_removed));
+             CHECK_FALSE(b.raised(machine::event("card.removed")));
          }},
         {"card.choose",
          [](Bench& b) {
@@ -102,19 +103,19 @@ const std::vector<ActionRow>& device_action_rows() {
         {"job.select",
          [](Bench& b) {
              b.run(R"({"job.select": {"name": "a.gcode"}})");
-             CHECK(b.raised(EventId::file_selected));
+             CHECK(b.raised(machine::event("file.selected")));
              CHECK(b.text("job.path") == "a.gcode");
              b.run(R"({"job.select": {"name": "b.gcode"}})");
-             CHECK(b.raised(EventId::file_missing));
+             CHECK(b.raised(machine::event("file.missing")));
              b.run(R"({"job.select": {"name": "sub"}})");
-             CHECK(b.raised(EventId::file_unreadable));
+             CHECK(b.raised(machine::event("file.unreadable")));
          }},
         {"job.start",
          [](Bench& b) {
              b.run(R"("job.start")");
              CHECK(b.notices.size() == 1);
              b.run(R"([{"job.select": {"name": "a.gcode"}}, "job.start"])");
-             CHECK(b.raised(EventId::job_started));
+             CHECK(b.raised(machine::event("job.started")));
              CHECK(b.number("job.status") == 1);
          }},
         {"job.pause",
@@ -123,18 +124,18 @@ const std::vector<ActionRow>& device_action_rows() {
              b.run(R"("job.pause")");
              CHECK(b.number("job.pausing") == 1);
              b.run(R"("job.pause")");
-             CHECK(b.raised(EventId::job_pausing));
+             CHECK(b.raised(machine::event("job.pausing")));
              b.pass(10);
-             CHECK(b.raised(EventId::job_paused));
+             CHECK(b.raised(machine::event("job.paused")));
              CHECK(b.number("job.status") == 2);
              b.run(R"("job.start")");
-             CHECK(b.raised(EventId::job_resumed));
+             CHECK(b.raised(machine::event("job.resumed")));
          }},
         {"job.stop",
          [](Bench& b) {
              b.print();
              b.run(R"([{"heater.target": {"heater": "bed", "c": 60}}, "job.stop"])");
-             CHECK(b.raised(EventId::job_stopped));
+             CHECK(b.raised(machine::event("job.stopped")));
              CHECK(b.number("job.status") == 0);
              CHECK(b.number("heaters.bed.target") == 0);
          }},
@@ -142,7 +143,7 @@ const std::vector<ActionRow>& device_action_rows() {
          [](Bench& b) {
              b.print();
              b.run(R"("job.finish")");
-             CHECK(b.raised(EventId::job_finished));
+             CHECK(b.raised(machine::event("job.finished")));
              CHECK(b.number("job.progress") == 100);
          }},
         {"job.close",
@@ -151,7 +152,7 @@ const std::vector<ActionRow>& device_action_rows() {
              b.run(R"("job.close")");
              CHECK(b.number("job.status") == 1);  // only a finished one
              b.run(R"(["job.finish", "job.close"])");
-             CHECK(b.raised(EventId::job_closed));
+             CHECK(b.raised(machine::event("job.closed")));
              CHECK(b.number("job.status") == 0);
          }},
         {"job.seek",
@@ -222,11 +223,11 @@ const std::vector<ActionRow>& device_action_rows() {
         {"board.stall",
          [](Bench& b) {
              b.run(R"({"board.stall": {"ms": 40}})");
-             CHECK(b.machine.take_stall() == machine::SimTime{40000});
-             CHECK(b.machine.take_stall() == machine::SimTime{0});
+             CHECK(b.machine.loop.take_stall() == machine::SimTime{40000});
+             CHECK(b.machine.loop.take_stall() == machine::SimTime{0});
              for (int i = 0; i < 100; ++i) {
                  b.run(R"({"board.stall": {"ms": 40, "most_ms": 150}})");
-                 const auto stall = b.machine.take_stall();
+                 const auto stall = b.machine.loop.take_stall();
                  CHECK(stall >= machine::SimTime{40000});
                  CHECK(stall <= machine::SimTime{150000});
              }

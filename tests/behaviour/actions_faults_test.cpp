@@ -1,5 +1,6 @@
 // Actions that break the machine and mend it, and the user who continues.
 
+#include "emulator/filament/event_rows.h"
 #include "tests/behaviour/action_bench.h"
 
 namespace fauxboard::testing {
@@ -14,13 +15,13 @@ const std::vector<ActionRow>& fault_action_rows() {
              CHECK(b.number("heaters.bed.printed") == 300);
              CHECK(b.number("heaters.nozzle.printed") < 30);
              CHECK(b.text("heaters.bed.alarm") == "too hot");
-             CHECK(b.raised(EventId::heater_bed_abnormal));
+             CHECK(b.raised(filament::event("heater.bed_abnormal")));
              b.run(R"({"fault.set": {"fault": "jam", "value": 40, "for_s": 5}})");
              b.pass(1);
-             CHECK(b.machine.filament_path.lost == doctest::Approx(0.4));
+             CHECK(b.printer().filament_path.lost == doctest::Approx(0.4));
              b.pass(5);
              CHECK(b.number("faults.jam") == 0);
-             CHECK(b.machine.filament_path.lost == 0);
+             CHECK(b.printer().filament_path.lost == 0);
              CHECK(b.notices.empty());
              b.run(R"({"fault.set": {"fault": "jamm"}})");
              b.run(R"({"fault.set": {"fault": "jam", "value": 101}})");
@@ -41,7 +42,7 @@ const std::vector<ActionRow>& fault_action_rows() {
              CHECK(b.number("faults.endstop_dead") == 1);
              b.run(R"("fault.clear")");
              CHECK(b.number("faults.endstop_dead") == 0);
-             CHECK_FALSE(b.machine.motion.faults().dead_endstops[0]);
+             CHECK_FALSE(b.printer().motion.faults().dead_endstops[0]);
              b.run(R"({"fault.clear": {"fault": "refuse"}})");
              CHECK(b.notices.size() == 1);
          }},

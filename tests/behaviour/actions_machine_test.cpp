@@ -1,5 +1,7 @@
 // What each action of heaters, motion, mixing, filament and fans does.
 
+#include "emulator/filament/event_rows.h"
+#include "emulator/machine/event_rows.h"
 #include "tests/behaviour/action_bench.h"
 
 namespace fauxboard::testing {
@@ -42,14 +44,14 @@ const std::vector<ActionRow>& machine_action_rows() {
              b.run(
                  R"([{"heater.target": {"heater": "nozzle", "c": 100}}, {"heater.wait": {"heater": "nozzle"}}])");
              CHECK(b.number("heating.waiting") == 1);
-             CHECK(b.raised(EventId::heating_wait_started));
+             CHECK(b.raised(filament::event("heating.wait_started")));
          }},
         {"heater.stop_waiting",
          [](Bench& b) {
              b.run(R"([{"heater.target": {"heater": "bed", "c": 60}}, {"heater.wait": {"heater": "bed"}}])");
              b.run(R"("heater.stop_waiting")");
              CHECK(b.number("heating.waiting") == 0);
-             CHECK(b.raised(EventId::heating_wait_done));
+             CHECK(b.raised(filament::event("heating.wait_done")));
              CHECK(b.number("heaters.bed.target") == 60);
          }},
         {"heater.all_off",
@@ -72,7 +74,7 @@ const std::vector<ActionRow>& machine_action_rows() {
              CHECK(b.number("motors.enabled") == 1);
              b.pass(60);
              CHECK(b.number("motion.homed") == 1);
-             CHECK(b.raised(EventId::motion_homed));
+             CHECK(b.raised(machine::event("motion.homed")));
              b.run(R"({"motion.home": {"y": true}})");  // no procedure of that name here
              CHECK(b.notices.size() == 1);
          }},
@@ -188,14 +190,14 @@ const std::vector<ActionRow>& machine_action_rows() {
         {"filament.load",
          [](Bench& b) {
              b.run(R"("filament.load")");
-             CHECK(b.raised(EventId::filament_too_cold));
+             CHECK(b.raised(filament::event("filament.too_cold")));
              CHECK(b.number("filament.running") == 0);
              b.heat(200);
              b.pass(0.5);
              b.run(R"("filament.load")");
              CHECK(b.number("filament.running") == 1);
              b.pass(2);
-             CHECK(b.raised(EventId::filament_piece));
+             CHECK(b.raised(filament::event("filament.piece")));
          }},
         {"filament.unload",
          [](Bench& b) {
@@ -219,7 +221,7 @@ const std::vector<ActionRow>& machine_action_rows() {
              CHECK(b.number("filament.running") == 1);
              b.pass(2);
              CHECK(b.number("filament.running") == 0);
-             CHECK(b.raised(EventId::filament_stopped));
+             CHECK(b.raised(filament::event("filament.stopped")));
          }},
         {"filament.stop",
          [](Bench& b) {
@@ -227,21 +229,21 @@ const std::vector<ActionRow>& machine_action_rows() {
              b.pass(0.5);
              b.run(R"(["filament.load", "filament.stop"])");
              CHECK(b.number("filament.running") == 0);
-             CHECK(b.raised(EventId::filament_stopped));
+             CHECK(b.raised(filament::event("filament.stopped")));
          }},
         {"filament.insert",
          [](Bench& b) {
              b.run(R"("filament.insert")");
              CHECK(b.number("filament.code") == 1);
-             CHECK(b.raised(EventId::filament_inserted));
+             CHECK(b.raised(filament::event("filament.inserted")));
              b.run(R"("filament.insert")");
-             CHECK_FALSE(b.raised(EventId::filament_inserted));  // it is in already
+             CHECK_FALSE(b.raised(filament::event("filament.inserted")));  // it is in already
          }},
         {"filament.remove",
          [](Bench& b) {
              b.run(R"(["filament.insert", "filament.remove"])");
              CHECK(b.number("filament.code") == 0);
-             CHECK(b.raised(EventId::filament_removed));
+             CHECK(b.raised(filament::event("filament.removed")));
          }},
     };
     return rows;

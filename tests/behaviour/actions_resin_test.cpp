@@ -1,6 +1,9 @@
 // What the actions of resin printers do. Their prints are tested with the boards that have them.
 
+#include "emulator/machine/event_rows.h"
+#include "emulator/resin/event_rows.h"
 #include "tests/behaviour/action_bench.h"
+#include "tests/support/printers.h"
 
 namespace fauxboard::testing {
 
@@ -19,7 +22,7 @@ const std::vector<ActionRow>& resin_action_rows() {
          [](Bench& b) {
              b.run(R"("resin.home")");
              b.pass(100);
-             CHECK(b.raised(EventId::motion_homed));
+             CHECK(b.raised(machine::event("motion.homed")));
              CHECK(b.number("resin.homed") == 1);
          }},
         {"resin.stir",
@@ -44,7 +47,7 @@ const std::vector<ActionRow>& resin_action_rows() {
         {"resin.choose",
          [](Bench& b) {
              b.run(R"({"resin.choose": {"name": "{name}"}})", "M23 '/sub/b.gcode'");
-             CHECK(b.raised(EventId::file_selected));
+             CHECK(b.raised(machine::event("file.selected")));
              CHECK(b.text("resin.outcome") == "opened");
              CHECK(b.text("resin.asked") == "sub/b.gcode");
              CHECK(b.text("resin.file") == "/sub/b.gcode");
@@ -97,7 +100,7 @@ const std::vector<ActionRow>& resin_action_rows() {
              CHECK(b.number("config.home_again_speed") == 4);
              CHECK(b.number("config.lift_fast_speed") == 6);
              CHECK(b.number("config.lift_wait") == 7);
-             CHECK(b.machine.resin->used[machine::ResinSetting::lift_wait] == 1);
+             CHECK(resin_printer(b.machine).used[resin::ResinSetting::lift_wait] == 1);
              b.run(R"("config.set")", "M8085 I99999");
              CHECK(b.number("config.logo") == 6000);
              CHECK(b.notices.size() == 1);
@@ -105,7 +108,7 @@ const std::vector<ActionRow>& resin_action_rows() {
         {"config.use",
          [](Bench& b) {
              b.run(R"(["config.set", "config.use"])", "M8026 I100");
-             CHECK(b.machine.resin->used[machine::ResinSetting::max_height] == 100);
+             CHECK(resin_printer(b.machine).used[resin::ResinSetting::max_height] == 100);
          }},
         {"wifi.join",
          [](Bench& b) {
@@ -132,9 +135,9 @@ const std::vector<ActionRow>& resin_action_rows() {
          [](Bench& b) {
              b.run(R"({"board.reboot": {"ms": 500}})");
              b.pass(0.4);
-             CHECK_FALSE(b.raised(EventId::board_reboot_due));
+             CHECK_FALSE(b.raised(resin::event("board.reboot_due")));
              b.pass(0.2);
-             CHECK(b.raised(EventId::board_reboot_due));
+             CHECK(b.raised(resin::event("board.reboot_due")));
          }},
     };
     return rows;

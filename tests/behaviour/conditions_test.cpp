@@ -5,6 +5,7 @@
 #include <string>
 
 #include "emulator/behaviour/rule_compiler.h"
+#include "tests/support/printers.h"
 #include "tests/support/small_profile.h"
 
 using namespace fauxboard;
@@ -15,7 +16,7 @@ namespace {
 
 bool holds(const string& when, const string& request = "M1 S2 P5") {
     static const auto profile = fauxboard::testing::small_profile();
-    machine::Printer machine(profile->machine, {}, 1);
+    filament::Printer machine(std::static_pointer_cast<const filament::Config>(profile->machine), {}, 1);
     machine.power_on(machine::SimTime{0});
     machine.screen.firmware = "V1.02";
     const std::vector<double> variables{1.5};

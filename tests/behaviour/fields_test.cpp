@@ -8,6 +8,7 @@
 #include <string>
 
 #include "emulator/behaviour/fields.h"
+#include "emulator/behaviour/kind.h"
 #include "tests/support/small_profile.h"
 
 using namespace fauxboard;
@@ -16,10 +17,15 @@ using std::string;
 
 namespace {
 
+/// A machine of a kind.
 struct Bench {
-    machine::Printer machine{
-        fauxboard::testing::small_profile(R"({ "machine": { "resin": {} } })")->machine, {}, 1};
-    Bench() { machine.power_on(machine::SimTime{0}); }
+    std::shared_ptr<const Profile> profile;
+    std::unique_ptr<machine::Machine> made{profile->kind->make(profile->machine, {}, 1)};
+    machine::Machine& machine{*made};
+
+    explicit Bench(std::string_view kind = "filament") : profile(fauxboard::testing::bare_profile(kind)) {
+        machine.power_on(machine::SimTime{0});
+    }
     double number(std::string_view path) { return find_field(path)->get(machine).number; }
 };
 
@@ -35,7 +41,43 @@ bool clamped_by_machine(const Field& field) {
     return field.path.ends_with(".target") && field.path.starts_with("heaters.");
 }
 
+struct FieldOfKind {
+    const Field& field;
+    std::string_view kind;
+};
+
+/// Every field, with a kind of machine that has it. (Those of all machines: with the first kind.)
+std::vector<FieldOfKind> fields_and_kinds() {
+    std::vector<FieldOfKind> all;
+    for (const Field& field : fields()) {
+        std::string_view owner = kinds().front()->machine.name;
+        for (const KindRow* kind : kinds()) {
+            const auto own = kind->fields();
+            const bool has = std::any_of(own.begin(), own.end(),
+                                         [&](const Field& each) { return each.path == field.path; });
+            owner = has ? kind->machine.name : owner;
+        }
+        all.push_back({field, owner});
+    }
+    return all;
+}
+
 }  // namespace
+
+TEST_CASE("fields: those of a kind are nothing on a machine of another one, and cannot be set there") {
+    for (const KindRow* kind : kinds()) {
+        for (const KindRow* other : kinds()) {
+            Bench bench(other->machine.name);
+            for (const Field& field : kind->fields()) {
+                CAPTURE(field.path);
+                CHECK(field.get(bench.machine).none() == (kind != other));
+                if (kind != other && field.type != FieldType::text) {
+                    CHECK(set_field(bench.machine, field, Value::of(field.min)) == SetResult::refused);
+                }
+            }
+        }
+    }
+}
 
 TEST_CASE("fields: paths are unique, well formed, and found by their name") {
     std::set<std::string_view> paths;
@@ -71,9 +113,11 @@ TEST_CASE("fields: what is stored can be set, and bounds are in order") {
 }
 
 TEST_CASE("fields: every value has the kind its type says, from the first moment on") {
-    Bench bench;
-    for (const Field& field : fields()) {
+    for (const FieldOfKind& each : fields_and_kinds()) {
+        const Field& field = each.field;
+        const std::string_view kind = each.kind;
         CAPTURE(field.path);
+        Bench bench(kind);
         const Value value = field.get(bench.machine);
         CHECK(value.is_text() == (field.type == FieldType::text));
         if (value.is_number()) {
@@ -86,21 +130,23 @@ TEST_CASE("fields: every value has the kind its type says, from the first moment
 }
 
 TEST_CASE("fields: every settable number keeps what lies within its bounds and clamps what does not") {
-    for (const Field& field : fields()) {
+    for (const FieldOfKind& each : fields_and_kinds()) {
+        const Field& field = each.field;
+        const std::string_view kind = each.kind;
         if (field.set == nullptr || field.type == FieldType::text || clamped_by_machine(field)) {
             continue;
         }
         CAPTURE(field.path);
         const double middle = field.min + (field.max - field.min) * 0.37;
         for (const double wanted : {field.min, middle, field.max}) {
-            Bench bench;
+            Bench bench(kind);
             CHECK(set_field(bench.machine, field, Value::of(wanted)) == SetResult::done);
             CHECK(field.get(bench.machine).number == doctest::Approx(shown(field, wanted)));
         }
         for (const auto& [wanted, kept] :
              {std::pair{field.min - 1, field.min}, std::pair{field.max + 1, field.max},
               std::pair{-1e300, field.min}, std::pair{1e300, field.max}}) {
-            Bench bench;
+            Bench bench(kind);
             CHECK(set_field(bench.machine, field, Value::of(wanted)) == SetResult::clamped);
             CHECK(field.get(bench.machine).number == doctest::Approx(shown(field, kept)));
         }
@@ -109,12 +155,14 @@ TEST_CASE("fields: every settable number keeps what lies within its bounds and c
 
 TEST_CASE("fields: a number field refuses what is no number, and keeps its value") {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    for (const Field& field : fields()) {
+    for (const FieldOfKind& each : fields_and_kinds()) {
+        const Field& field = each.field;
+        const std::string_view kind = each.kind;
         if (field.set == nullptr || field.type == FieldType::text) {
             continue;
         }
         CAPTURE(field.path);
-        Bench bench;
+        Bench bench(kind);
         const Value before = field.get(bench.machine);
         for (const Value& wrong : {Value::of(std::nan("")), Value::of(infinity), Value::of(-infinity),
                                    Value::of(std::string_view{"5"}), Value{}}) {
@@ -126,13 +174,15 @@ TEST_CASE("fields: a number field refuses what is no number, and keeps its value
 
 TEST_CASE("fields: every settable text keeps what fits and cuts what does not") {
     int texts = 0;
-    for (const Field& field : fields()) {
+    for (const FieldOfKind& each : fields_and_kinds()) {
+        const Field& field = each.field;
+        const std::string_view kind = each.kind;
         if (field.set == nullptr || field.type != FieldType::text) {
             continue;
         }
         ++texts;
         CAPTURE(field.path);
-        Bench bench;
+        Bench bench(kind);
         const auto room = static_cast<std::size_t>(field.max);
         const string fits(room, 'a');
         CHECK(set_field(bench.machine, field, Value::of(std::string_view{fits})) == SetResult::done);

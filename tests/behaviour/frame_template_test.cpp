@@ -6,6 +6,7 @@
 #include <string>
 
 #include "protocol/framing.h"
+#include "tests/support/printers.h"
 #include "tests/support/small_profile.h"
 
 using namespace fauxboard;
@@ -16,7 +17,10 @@ namespace {
 
 /// A machine and all that a template can see.
 struct Bench {
-    machine::Printer machine{fauxboard::testing::small_profile()->machine, {}, 1};
+    filament::Printer machine{
+        std::static_pointer_cast<const filament::Config>(fauxboard::testing::small_profile()->machine),
+        {},
+        1};
     std::vector<double> variables{1.5};
     protocol::Command command;
     string body;

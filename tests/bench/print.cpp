@@ -11,6 +11,7 @@
 #include "protocol/framing.h"
 #include "tests/bench/allocations.h"
 #include "tests/bench/figure.h"
+#include "tests/support/printers.h"
 #include "tests/support/sliced_file.h"
 
 namespace fauxboard::bench {
@@ -47,19 +48,21 @@ Print print(testing::MemoryDisk& disk) {
         advance();
     }
     board.receive(now, protocol::frame("M24"));
-    while (board.machine().runner.counts().lines == 0 && now < std::chrono::seconds(30)) {
+    while (testing::filament_printer(board.machine()).runner.counts().lines == 0 &&
+           now < std::chrono::seconds(30)) {
         advance();
     }
     const std::int64_t held = allocations().live_bytes;
     std::int64_t most = held;
-    const std::uint64_t before = board.machine().runner.counts().lines;
+    const std::uint64_t before = testing::filament_printer(board.machine()).runner.counts().lines;
     const auto start = Clock::now();
     while (board.machine().job.status() == JobStatus::printing) {
         advance();
         most = std::max(most, allocations().live_bytes);
     }
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    const auto lines = static_cast<double>(board.machine().runner.counts().lines - before);
+    const auto lines =
+        static_cast<double>(testing::filament_printer(board.machine()).runner.counts().lines - before);
     return {seconds * ns_per_s / lines, static_cast<double>(most - held) / 1024};
 }
 

@@ -4,6 +4,7 @@
 
 #include "protocol/framing.h"
 #include "tests/support/board_driver.h"
+#include "tests/support/printers.h"
 
 using namespace fauxboard;
 using namespace fauxboard::testing;
@@ -104,13 +105,15 @@ TEST_CASE("boot: a missing card is told between the first temperatures and the f
 
 TEST_CASE("boot: a job that a power loss cut off is offered at the end of the burst") {
     struct Saved final : machine::JobPlaceStore {
-        std::optional<machine::JobPlace> load() override {
-            machine::JobPlace place;
+        std::optional<std::string> load() override {
+            filament::JobPlace place;
             place.path = "testpattern.gcode";
             place.bytes = 109;
-            return place;
+            std::string bytes;
+            filament::put_place(place, bytes);
+            return bytes;
         }
-        void keep(const machine::JobPlace&) override {}
+        void keep(std::string_view) override {}
         void drop() override {}
     } store;
     for (const char* profile : {"geeetech-a30t", "geeetech-a30"}) {

@@ -9,6 +9,7 @@
 
 #include "tests/support/board_driver.h"
 #include "tests/support/host_program.h"
+#include "tests/support/printers.h"
 #include "tests/support/sliced_file.h"
 
 using namespace fauxboard;
@@ -80,10 +81,10 @@ TEST_CASE_FIXTURE(Ready, "host stream: heating, homing and dwelling keep the hos
 TEST_CASE_FIXTURE(Ready, "host stream: M108 and M112 reach the board while it waits") {
     CHECK(told(driver, "M109 S200", 5).find("ok") == std::string::npos);
     CHECK(told(driver, "M108").find("ok\n") != std::string::npos);
-    CHECK_FALSE(driver.machine().wait.active());
+    CHECK_FALSE(filament_printer(driver.machine()).wait.active());
     CHECK(told(driver, "M190 S90", 5).find("ok") == std::string::npos);
     told(driver, "M112");
-    CHECK_FALSE(driver.machine().wait.active());
+    CHECK_FALSE(filament_printer(driver.machine()).wait.active());
     CHECK(driver.number("heaters.bed.target") == 0);
     CHECK(told(driver, "M105").find("ok T:") == 0);
 }
@@ -139,11 +140,11 @@ TEST_CASE("host stream: a whole print with damaged and lost lines: every move on
             return;
         }
         ++moves;
-        const machine::AxisValues& at = driver.machine().motion.planned();
+        const filament::AxisValues& at = filament_printer(driver.machine()).motion.planned();
         char text[64];
         std::snprintf(text, sizeof text, "X%.3f Y%.3f Z%.3f", at[0], at[1], at[2]);
         planned.insert(text);
-        if (driver.machine().motion.relative()) {
+        if (filament_printer(driver.machine()).motion.relative()) {
             return;  // the lift at the end of the file
         }
         // What was acknowledged last is what was planned last: no line was passed over and none came twice.

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "tests/support/board_driver.h"
+#include "tests/support/printers.h"
 #include "tests/support/reference_time.h"
 #include "tests/support/sliced_file.h"
 
@@ -155,7 +156,7 @@ TEST_CASE("print: the time of the whole job is within 5 % of the reference, what
         const std::string text = make_sliced_file(wishes);
         Print print(text);
         print.start();
-        const double reference = reference_seconds(text, print.driver.machine().settings);
+        const double reference = reference_seconds(text, filament_printer(print.driver.machine()).settings);
         REQUIRE(print.run_until_status(4, reference * 2 + 100));
         CHECK(print.driver.number("job.seconds") == doctest::Approx(reference).epsilon(0.05));
     }

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "tests/support/board_driver.h"
+#include "tests/support/printers.h"
 #include "tests/support/sliced_file.h"
 
 using namespace fauxboard;
@@ -13,11 +14,17 @@ using namespace fauxboard::testing;
 namespace {
 
 struct MemoryStore final : machine::JobPlaceStore {
-    std::optional<machine::JobPlace> place;
+    std::optional<filament::JobPlace> place;
     int kept = 0;
-    std::optional<machine::JobPlace> load() override { return place; }
-    void keep(const machine::JobPlace& now) override {
-        place = now;
+    std::optional<std::string> load() override {
+        std::string bytes;
+        if (place) {
+            filament::put_place(*place, bytes);
+        }
+        return place ? std::optional(bytes) : std::nullopt;
+    }
+    void keep(std::string_view now) override {
+        place = filament::place_from(now);
         ++kept;
     }
     void drop() override { place.reset(); }
@@ -71,7 +78,7 @@ TEST_CASE("recovery: the place of a cut job is offered, and the print goes on th
     const double seconds = cuts.driver->number("job.seconds");
     const double bed = cuts.driver->number("heaters.bed.target");
     const double nozzle = cuts.driver->number("heaters.nozzle.target");
-    const machine::AxisValues at = cuts.driver->machine().motion.executed();
+    const filament::AxisValues at = filament_printer(cuts.driver->machine()).motion.executed();
     REQUIRE(nozzle > 0);
 
     cuts.power_on();
@@ -94,7 +101,7 @@ TEST_CASE("recovery: the place of a cut job is offered, and the print goes on th
     CHECK(cuts.driver->number("job.layer") == doctest::Approx(layer).epsilon(0.2));
     CHECK(cuts.driver->number("job.seconds") == doctest::Approx(seconds).epsilon(0.01));
     CHECK(cuts.driver->number("job.executed_byte") >= executed);
-    CHECK(cuts.driver->machine().motion.executed()[2] == doctest::Approx(at[2]));
+    CHECK(filament_printer(cuts.driver->machine()).motion.executed()[2] == doctest::Approx(at[2]));
     double last = 0;
     while (cuts.driver->number("job.status") == 1 && cuts.driver->now() < 50'000) {
         cuts.driver->run_for(5);

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "tests/control/bench.h"
+#include "tests/support/printers.h"
 
 namespace fauxboard::control::test {
 namespace {
@@ -132,7 +133,7 @@ TEST_CASE("do: actions as in profiles, by phrase, in lists; refusals are errors"
     Bench bench;
     Client client(bench);
     CHECK(client.code(R"({"op": "do", "do": {"heater.target": {"heater": "nozzle", "c": 199}}})").empty());
-    CHECK(bench.own.machine().thermal.target_c(machine::HeaterId::nozzle) == 199);
+    CHECK(testing::filament_printer(bench.own.machine()).thermal.target_c(filament::HeaterId::nozzle) == 199);
     CHECK(client.code(R"({"op": "do", "do": "filament in"})").empty());
     CHECK(client.code(R"({"op": "do", "do": ["motion.home", {"set": {"heaters.bed.target": 40}}]})").empty());
     CHECK(client.code(R"({"op": "do", "do": {"stepper.select": {"motor": 9}}})") == "refused");
@@ -149,7 +150,7 @@ TEST_CASE("do: actions as in profiles, by phrase, in lists; refusals are errors"
     CHECK(unknown["nearest"] == "motion.home");
     CHECK(client.code(R"({"op": "do", "do": "heater.target"})") == "bad-arguments");
     bench.pass(60s);
-    CHECK(bench.own.machine().motion.busy() == false);
+    CHECK(testing::filament_printer(bench.own.machine()).motion.busy() == false);
     CHECK(bench.answers());
 }
 
@@ -241,7 +242,7 @@ TEST_CASE("advance: is answered when time has got there, and further requests wa
     CHECK(rest[0]["id"] == 3);
     CHECK(rest[0]["t"] == 601.0);
     CHECK(client.session.wants_input());
-    CHECK(bench.own.machine().thermal.temperature_c(machine::HeaterId::bed) > 55);
+    CHECK(testing::filament_printer(bench.own.machine()).thermal.temperature_c(filament::HeaterId::bed) > 55);
     for (const char* by : {"0s", "31h5", "\"", "-5s", "1e999s", "9000h", ""}) {
         CAPTURE(by);
         CHECK_FALSE(client.code(Json{{"op", "advance"}, {"by", by}}.dump()).empty());

@@ -187,7 +187,7 @@ TEST_CASE("every attribute of every kind survives both forms, at both bounds and
 }
 
 TEST_CASE("faults of the printer are spelled alike: both forms, at both bounds and at the default") {
-    CHECK(printer_kinds().size() == machine::breakdown_count);
+    CHECK(printer_kinds().size() == machine::fault_rows().size());
     for (const Kind* kind : printer_kinds()) {
         const std::string name(kind->name);
         CAPTURE(name);
@@ -213,10 +213,10 @@ TEST_CASE("faults of the printer are spelled alike: both forms, at both bounds a
             }
         }
     }
-    const machine::BreakdownRequest request =
+    const machine::FaultRequest request =
         to_request(fault_from_text("too_hot:heater=bed,power=40,at=60s,for=1min"));
-    CHECK(request.info->id == machine::BreakdownId::too_hot);
-    CHECK(request.values == machine::BreakdownValues{1, 40});
+    CHECK(request.info == machine::find_fault("too_hot"));
+    CHECK(request.values == machine::FaultValues{1, 40});
     CHECK(request.begin == ms(60'000));
     CHECK(request.length == ms(60'000));
     CHECK_FALSE(request.end);

@@ -2,7 +2,9 @@
 
 #include <doctest/doctest.h>
 
-using namespace fauxboard::machine;
+#include "emulator/filament/event_rows.h"
+
+using namespace fauxboard::filament;
 
 namespace {
 
@@ -25,11 +27,11 @@ struct Bench {
     int count(EventId wanted) {
         int n = 0;
         EventQueue rest;
-        while (const auto event = events.take()) {
-            if (*event == wanted) {
+        while (const auto taken = events.take()) {
+            if (*taken == wanted) {
                 ++n;
             } else {
-                rest.raise(*event);
+                rest.raise(*taken);
             }
         }
         events = rest;
@@ -45,11 +47,11 @@ TEST_CASE("feeder: a piece is told when the one before it has ended, again and a
     bench.feeder.start(Feeder::Mode::load, bench.now);
     CHECK(bench.feeder.next_event() == from_seconds(1.0));
     bench.pass(0.99);
-    CHECK(bench.count(EventId::filament_piece) == 0);
+    CHECK(bench.count(event("filament.piece")) == 0);
     bench.pass(0.01);
-    CHECK(bench.count(EventId::filament_piece) == 1);
+    CHECK(bench.count(event("filament.piece")) == 1);
     bench.pass(100);
-    CHECK(bench.count(EventId::filament_piece) <= 64);  // the queue of events is bounded
+    CHECK(bench.count(event("filament.piece")) <= 64);  // the queue of events is bounded
     CHECK(bench.running());
 }
 
@@ -57,9 +59,9 @@ TEST_CASE("feeder: a stop early in a piece is a stop at once") {
     Bench bench;
     bench.feeder.start(Feeder::Mode::unload, bench.now);
     bench.pass(3.2);
-    bench.count(EventId::filament_piece);
+    bench.count(event("filament.piece"));
     bench.stop();
-    CHECK(bench.count(EventId::filament_stopped) == 1);
+    CHECK(bench.count(event("filament.stopped")) == 1);
     CHECK_FALSE(bench.running());
     CHECK(bench.feeder.next_event() == never);
     bench.pass(10);
@@ -70,20 +72,20 @@ TEST_CASE("feeder: a stop later in a piece waits for its end") {
     Bench bench;
     bench.feeder.start(Feeder::Mode::clean, bench.now);
     bench.pass(3.25);
-    bench.count(EventId::filament_piece);
+    bench.count(event("filament.piece"));
     bench.stop();
     CHECK(bench.events.empty());
     CHECK(bench.running());
     bench.pass(0.75);
-    CHECK(bench.events.take() == EventId::filament_piece);
-    CHECK(bench.events.take() == EventId::filament_stopped);
+    CHECK(bench.events.take() == event("filament.piece"));
+    CHECK(bench.events.take() == event("filament.stopped"));
     CHECK_FALSE(bench.running());
 }
 
 TEST_CASE("feeder: a stop of nothing is told as well, so that the screen gets its answer") {
     Bench bench;
     bench.stop();
-    CHECK(bench.count(EventId::filament_stopped) == 1);
+    CHECK(bench.count(event("filament.stopped")) == 1);
 }
 
 TEST_CASE("feeder: once is one piece") {
@@ -91,8 +93,8 @@ TEST_CASE("feeder: once is one piece") {
     bench.feeder.feed_once(bench.now);
     CHECK(bench.running());
     bench.pass(1.0);
-    CHECK(bench.count(EventId::filament_piece) == 1);
-    CHECK(bench.count(EventId::filament_stopped) == 1);
+    CHECK(bench.count(event("filament.piece")) == 1);
+    CHECK(bench.count(event("filament.stopped")) == 1);
     CHECK_FALSE(bench.running());
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-using namespace fauxboard::machine;
+using namespace fauxboard::filament;
 
 namespace {
 

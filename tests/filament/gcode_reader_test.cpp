@@ -9,7 +9,7 @@
 
 #include "tests/support/sliced_file.h"
 
-using namespace fauxboard::machine;
+using namespace fauxboard::filament;
 using fauxboard::testing::MemoryDisk;
 
 namespace {

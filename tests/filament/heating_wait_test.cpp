@@ -4,7 +4,9 @@
 
 #include <vector>
 
-using namespace fauxboard::machine;
+#include "emulator/filament/event_rows.h"
+
+using namespace fauxboard::filament;
 
 namespace {
 
@@ -24,11 +26,11 @@ struct Bench {
             now = wait.next_event();
             thermal.advance(now);
             wait.advance(now, thermal, events);
-            while (const auto event = events.take()) {
-                if (*event == EventId::heating_wait_report) {
+            while (const auto taken = events.take()) {
+                if (*taken == event("heating.wait_report")) {
                     reports.push_back(to_seconds(now));
                 }
-                done += *event == EventId::heating_wait_done ? 1 : 0;
+                done += *taken == event("heating.wait_done") ? 1 : 0;
             }
         }
     }
@@ -40,7 +42,7 @@ TEST_CASE("waiting: reports every 2.0 s, one in 26 after 1.2 s, 51.2 s from one 
     Bench bench;
     bench.thermal.set_target(HeaterId::bed, 100);
     bench.wait.start(HeaterId::bed, bench.now, bench.events);
-    CHECK(bench.events.take() == EventId::heating_wait_started);
+    CHECK(bench.events.take() == event("heating.wait_started"));
     bench.run_until(160);
     REQUIRE(bench.reports.size() > 70);
     CHECK(bench.reports[0] == doctest::Approx(2.0));
@@ -84,6 +86,6 @@ TEST_CASE("waiting: it ends when the target is taken away, and when it is cancel
     CHECK(bench.events.empty());  // nothing to cancel
     bench.wait.start(HeaterId::bed, bench.now, bench.events);
     bench.wait.cancel(bench.events);
-    CHECK(bench.events.take() == EventId::heating_wait_started);
-    CHECK(bench.events.take() == EventId::heating_wait_done);
+    CHECK(bench.events.take() == event("heating.wait_started"));
+    CHECK(bench.events.take() == event("heating.wait_done"));
 }

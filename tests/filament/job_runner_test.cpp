@@ -9,11 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "emulator/machine/printer.h"
+#include "emulator/filament/event_rows.h"
+#include "emulator/filament/printer.h"
 #include "tests/support/reference_time.h"
 #include "tests/support/sliced_file.h"
 
-using namespace fauxboard::machine;
+using namespace fauxboard::filament;
 using fauxboard::testing::make_sliced_file;
 using fauxboard::testing::MemoryDisk;
 using fauxboard::testing::reference_seconds;
@@ -21,8 +22,8 @@ using fauxboard::testing::SlicedFile;
 
 namespace {
 
-std::shared_ptr<const MachineConfig> config() {
-    auto made = std::make_shared<MachineConfig>();
+std::shared_ptr<const Config> config() {
+    auto made = std::make_shared<Config>();
     ProcedureStep lift;
     lift.kind = ProcedureStep::Kind::by;
     lift.values[2] = 5;
@@ -207,8 +208,8 @@ TEST_CASE("job: messages come one by one, each while it is the job's message") {
     std::vector<std::string> messages;
     while (machine.printer.job.status() == JobStatus::printing) {
         machine.printer.advance(machine.printer.next_event());
-        while (const auto event = machine.printer.events.take()) {
-            if (*event == EventId::job_message) {
+        while (const auto taken = machine.printer.events.take()) {
+            if (*taken == event("job.message")) {
                 messages.push_back(machine.printer.job.message);
             }
         }
@@ -229,7 +230,7 @@ TEST_CASE("job: a pause finishes what is planned, parks, and the job goes on whe
     CHECK(machine.printer.job.status() == JobStatus::printing);
     machine.run_until(60);
     CHECK(machine.printer.job.status() == JobStatus::paused);
-    CHECK(machine.count(EventId::job_paused) == 1);
+    CHECK(machine.count(event("job.paused")) == 1);
     CHECK(machine.position(Axis::y) == 300);
     CHECK(machine.position(Axis::z) == 6);
     const std::uint64_t byte = machine.printer.job.byte();
@@ -254,18 +255,18 @@ TEST_CASE("job: a stop ends it at once, and nothing of it comes after") {
     CHECK(machine.printer.next_event() == never);
     machine.run_until(100);
     CHECK(machine.printer.job.status() == JobStatus::idle);
-    CHECK(machine.count(EventId::job_finished) == 0);
+    CHECK(machine.count(event("job.finished")) == 0);
 }
 
 TEST_CASE("job: at its end it is finished for a while, then the machine is idle") {
     Machine machine("G1 X10 F3000\n");
     machine.finish();
     CHECK(machine.printer.job.status() == JobStatus::finished);
-    CHECK(machine.count(EventId::job_finished) == 1);
+    CHECK(machine.count(event("job.finished")) == 1);
     CHECK_FALSE(machine.printer.motion.busy());
     machine.run_until(60);
     CHECK(machine.printer.job.status() == JobStatus::idle);
-    CHECK(machine.count(EventId::job_closed) == 1);
+    CHECK(machine.count(event("job.closed")) == 1);
     CHECK(machine.printer.next_event() == never);
 }
 
@@ -376,11 +377,11 @@ TEST_CASE("job: a file that vanishes pauses the job; back again, it goes on and 
         out ? machine.printer.remove_card(0) : machine.disk.set_failing(true);
         machine.run_until(400);
         CHECK(machine.printer.job.status() == JobStatus::paused);
-        CHECK(machine.count(EventId::job_file_lost) == 1);
+        CHECK(machine.count(event("job.file_lost")) == 1);
         CHECK(machine.printer.start_or_resume_job());
         machine.run_until(500);
         CHECK(machine.printer.job.status() == JobStatus::paused);
-        CHECK(machine.count(EventId::job_file_lost) == 2);
+        CHECK(machine.count(event("job.file_lost")) == 2);
         machine.printer.insert_card(0);
         machine.disk.set_failing(false);
         CHECK(machine.printer.start_or_resume_job());
@@ -396,7 +397,7 @@ TEST_CASE("job: M0, M1 and M600 wait for the user") {
         machine.run_until(60);
         CHECK(machine.printer.job.status() == JobStatus::paused);
         CHECK(machine.printer.job.waits_for_user);
-        CHECK(machine.count(EventId::job_waits_for_user) == 1);
+        CHECK(machine.count(event("job.waits_for_user")) == 1);
         CHECK(machine.position(Axis::y) == (code == "M600" ? 300 : 20));
         CHECK(machine.printer.start_or_resume_job());
         CHECK_FALSE(machine.printer.job.waits_for_user);
@@ -423,7 +424,7 @@ TEST_CASE("job: another file cannot be selected while one is under way") {
     machine.run_until(1);
     machine.printer.select_file("y.gcode");
     machine.take_events();
-    CHECK(machine.count(EventId::job_refused) == 1);
+    CHECK(machine.count(event("job.refused")) == 1);
     CHECK(machine.printer.job.path() == "x.gcode");
     CHECK(machine.printer.job.status() == JobStatus::printing);
 }

@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-using namespace fauxboard::machine;
+using namespace fauxboard::filament;
 
 namespace {
 

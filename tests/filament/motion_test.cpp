@@ -7,7 +7,9 @@
 #include <cmath>
 #include <limits>
 
-using namespace fauxboard::machine;
+#include "emulator/filament/event_rows.h"
+
+using namespace fauxboard::filament;
 
 namespace {
 
@@ -318,10 +320,10 @@ TEST_CASE("motion: raise and lose_rounds take no time; asking for lost rounds ta
     ProcedureStep lose = step(ProcedureStep::Kind::lose_rounds);
     lose.rounds = 2;
     ProcedureStep raise = step(ProcedureStep::Kind::raise);
-    raise.event = EventId::motion_probed;
+    raise.event = event("motion.probed");
     bench.motion.run({lose, raise, lose}, bench.now, bench.events);
     CHECK_FALSE(bench.motion.busy());
-    CHECK(bench.events.take() == EventId::motion_probed);
+    CHECK(bench.events.take() == event("motion.probed"));
     CHECK(bench.motion.take_lost_rounds() == 4);
     CHECK(bench.motion.take_lost_rounds() == 0);
 }

@@ -8,7 +8,7 @@
 
 #include "emulator/filament/arc.h"
 
-using namespace fauxboard::machine;
+using namespace fauxboard::filament;
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-using namespace fauxboard::machine;
+using namespace fauxboard::filament;
 
 namespace {
 

@@ -5,7 +5,7 @@
 
 #include "emulator/filament/thermal.h"
 
-namespace fauxboard::machine {
+namespace fauxboard::filament {
 namespace {
 
 struct Found {
@@ -160,4 +160,4 @@ TEST_CASE("thermal: a well heater is looked at now and then only") {
     CHECK(looks < 400);  // of 12 000 measurements
 }
 
-}  // namespace fauxboard::machine
+}  // namespace fauxboard::filament

@@ -12,7 +12,7 @@
 #include "emulator/filament/thermal_crosstalk.h"
 #include "emulator/filament/thermal_fold.h"
 
-using namespace fauxboard::machine;
+using namespace fauxboard::filament;
 
 namespace {
 

@@ -23,6 +23,7 @@
 
 #include "protocol/framing.h"
 #include "tests/fuzz/support.h"
+#include "tests/support/printers.h"
 #include "tests/support/sliced_file.h"
 
 namespace fauxboard::fuzz {
@@ -105,7 +106,7 @@ void Print::provide(std::uint64_t times) {
 /// What must hold of the job at any moment.
 void Print::watch() {
     const machine::Job& job = board_.machine().job;
-    const machine::JobRunner& runner = board_.machine().runner;
+    const filament::JobRunner& runner = testing::filament_printer(board_.machine()).runner;
     require(job.byte() <= job.bytes(), "the place is beyond the end of the file");
     require(job.progress_percent() >= 0 && job.progress_percent() <= 100, "progress is no percentage");
     require(job.layer >= 0 && job.layers >= 0, "there are fewer layers than none");

@@ -74,7 +74,7 @@ class Bench final : public script::Stage, private fault::FaultControl {
     /// The board answers when the line and the machine are whole again.
     void finish() {
         faults_.clear(now_);
-        board_.tinker(now_, [](machine::Printer& p) { p.breakdowns.clear(); });
+        board_.tinker(now_, [](machine::Machine& p) { p.faults.clear(); });
         board_.power_on(now_);
         board_.clear_output();
         board_.receive(now_, protocol::frame("M105"));

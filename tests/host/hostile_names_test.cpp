@@ -17,6 +17,7 @@
 #include "protocol/framing.h"
 #include "tests/link/helpers.h"
 #include "tests/support/hostile_names.h"
+#include "tests/support/printers.h"
 
 namespace fauxboard::host {
 namespace {
@@ -169,7 +170,7 @@ TEST_CASE("hostile names: nothing outside is made, changed or removed") {
         const std::string ended = bench.host("M29");
         CHECK_FALSE(tells_secret(began));
         written += ended.find("Done saving file.") != std::string::npos ? 1 : 0;
-        CHECK_FALSE(bench.board.machine().host.writing());
+        CHECK_FALSE(testing::filament_printer(bench.board.machine()).host.writing());
         CHECK(trap.seen_outside() == before);
         bench.host("M30 " + name);
         CHECK(trap.seen_outside() == before);

@@ -4,6 +4,7 @@
 
 #include "protocol/framing.h"
 #include "tests/host/live_helpers.h"
+#include "tests/support/printers.h"
 
 namespace fauxboard::host::test {
 namespace {
@@ -87,7 +88,7 @@ TEST_CASE("the printer goes on while nobody is there, and the link's story is to
     b.link.go(link::LinkState::waiting, "gone");
     b.clock.pass(120s);
     b.link.go(link::LinkState::up, "back");
-    CHECK(b.board.machine().thermal.printed_c(machine::ThermalChannel::t0) > 100);
+    CHECK(testing::filament_printer(b.board.machine()).thermal.printed_c(filament::ThermalChannel::t0) > 100);
     CHECK(b.witness.links == std::vector<std::string>{"somebody came", "gone", "back"});
     b.link.messages.clear();
     b.live.on_bytes(frame("M105"));

@@ -210,3 +210,18 @@ TEST_CASE("storage: the other disk has a root of its own") {
     CHECK(bench.storage.choose(0));
     CHECK(bench.storage.folder().empty());
 }
+
+TEST_CASE("storage: names lose their quotes and the colon of an absolute path") {
+    for (const char* name :
+         {"a b.ctb", "'a b.ctb'", "\"a b.ctb\"", "':a b.ctb'", ":'a b.ctb'", ":a b.ctb", "  'a b.ctb'  "}) {
+        CAPTURE(name);
+        CHECK(bare_name(name) == "a b.ctb");
+    }
+    CHECK(bare_name("it's.ctb") == "it's.ctb");
+    CHECK(bare_name("'it's.ctb'") == "it's.ctb");
+    CHECK(bare_name("/dir/a.ctb") == "/dir/a.ctb");
+    for (const char* nothing : {"", "'", "''", ":", " : '", "\"\""}) {
+        CAPTURE(nothing);
+        CHECK(bare_name(nothing).empty());
+    }
+}

@@ -4,7 +4,9 @@
 
 #include <cmath>
 
-using namespace fauxboard::machine;
+#include "emulator/resin/event_rows.h"
+
+using namespace fauxboard::resin;
 
 namespace {
 
@@ -27,8 +29,8 @@ struct Bench {
     double z() { return axis.position(now); }
     int homed() {
         int count = 0;
-        while (const auto event = events.take()) {
-            count += *event == EventId::motion_homed ? 1 : 0;
+        while (const auto taken = events.take()) {
+            count += *taken == event("motion.homed") ? 1 : 0;
         }
         return count;
     }

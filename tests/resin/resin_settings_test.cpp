@@ -5,9 +5,9 @@
 #include <set>
 #include <string>
 
-#include "emulator/resin/resin.h"
+#include "emulator/resin/printer.h"
 
-using namespace fauxboard::machine;
+using namespace fauxboard::resin;
 
 TEST_CASE("resin settings: each is found by its code and letters, and by no other's") {
     std::set<std::string> keys;
@@ -40,19 +40,4 @@ TEST_CASE("resin settings: values are kept within their bounds, whole ones whole
     CHECK(settings[ResinSetting::start_speed] == 13);
     settings.set(ResinSetting::offset, -0.25);
     CHECK(settings[ResinSetting::offset] == -0.25);
-}
-
-TEST_CASE("resin: names lose their quotes and the colon of an absolute path") {
-    for (const char* name :
-         {"a b.ctb", "'a b.ctb'", "\"a b.ctb\"", "':a b.ctb'", ":'a b.ctb'", ":a b.ctb", "  'a b.ctb'  "}) {
-        CAPTURE(name);
-        CHECK(bare_name(name) == "a b.ctb");
-    }
-    CHECK(bare_name("it's.ctb") == "it's.ctb");
-    CHECK(bare_name("'it's.ctb'") == "it's.ctb");
-    CHECK(bare_name("/dir/a.ctb") == "/dir/a.ctb");
-    for (const char* nothing : {"", "'", "''", ":", " : '", "\"\""}) {
-        CAPTURE(nothing);
-        CHECK(bare_name(nothing).empty());
-    }
 }

@@ -9,6 +9,7 @@
 #include "emulator/behaviour/fields.h"
 #include "emulator/host/profile_files.h"
 #include "protocol/framing.h"
+#include "tests/support/printers.h"
 
 namespace fauxboard::testing {
 
@@ -133,7 +134,7 @@ void BoardDriver::meet_screen() {
 }
 
 void BoardDriver::heat_nozzle(double c) {
-    board_.machine().thermal.set_temperature(machine::HeaterId::nozzle, c);
+    filament_printer(board_.machine()).thermal.set_temperature(filament::HeaterId::nozzle, c);
     run_for(0.7);
 }
 

@@ -98,7 +98,7 @@ class BoardDriver final : private board::Observer {
     std::string text(std::string_view path) const;
 
     board::Board& board() { return board_; }
-    machine::Printer& machine() { return board_.machine(); }
+    machine::Machine& machine() { return board_.machine(); }
 
   private:
     void on_received(board::SimTime now, board::Channel channel, std::string_view line,

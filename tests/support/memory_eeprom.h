@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "emulator/machine/printer.h"
+#include "emulator/machine/machine.h"
 
 namespace fauxboard::testing {
 

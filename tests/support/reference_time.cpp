@@ -1,4 +1,5 @@
 #include "tests/support/reference_time.h"
+#include "tests/support/printers.h"
 
 #include <algorithm>
 #include <array>
@@ -19,7 +20,7 @@ struct Segment {
 
 class Estimate {
   public:
-    explicit Estimate(const machine::Settings& settings) : settings_(settings) {}
+    explicit Estimate(const filament::Settings& settings) : settings_(settings) {}
 
     void take(const std::string& text) {
         std::istringstream words(text.substr(0, text.find(';')));
@@ -145,7 +146,7 @@ class Estimate {
         return (peak - s.entry) / s.acceleration + std::max(peak - exit, 0.0) / s.acceleration;
     }
 
-    const machine::Settings& settings_;
+    const filament::Settings& settings_;
     std::vector<Segment> segments_;
     std::array<double, 4> at_{};
     double feed_ = 25;
@@ -155,7 +156,7 @@ class Estimate {
 
 }  // namespace
 
-double reference_seconds(std::string_view gcode, const machine::Settings& settings) {
+double reference_seconds(std::string_view gcode, const filament::Settings& settings) {
     Estimate estimate(settings);
     std::istringstream lines{std::string(gcode)};
     for (std::string line; std::getline(lines, line);) {

@@ -2,7 +2,8 @@
 
 #include <string_view>
 
-#include "emulator/machine/state.h"
+#include "emulator/filament/state.h"
+#include "tests/support/printers.h"
 
 namespace fauxboard::testing {
 
@@ -11,6 +12,6 @@ namespace fauxboard::testing {
 /// each pair of moves, passes over all of them backwards and then forwards, and adds up exact trapezoids. It
 /// shares no code with the emulator and knows G0, G1, G90, G91, G92, M82 and M83 only: nothing of heating,
 /// homing or waiting.
-double reference_seconds(std::string_view gcode, const machine::Settings& settings);
+double reference_seconds(std::string_view gcode, const filament::Settings& settings);
 
 }  // namespace fauxboard::testing

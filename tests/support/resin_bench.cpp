@@ -38,13 +38,13 @@ void ResinBench::fault(std::string_view spec) {
         return;
     }
     board.tinker(now_,
-                 [&](machine::Printer& p) { REQUIRE(p.breakdowns.add(now_, fault::to_request(made)) != 0); });
+                 [&](machine::Machine& p) { REQUIRE(p.faults.add(now_, fault::to_request(made)) != 0); });
     run_for(0);
 }
 
 void ResinBench::clear_faults() {
     faults_.clear(now_);
-    board.tinker(now_, [](machine::Printer& p) { p.breakdowns.clear(); });
+    board.tinker(now_, [](machine::Machine& p) { p.faults.clear(); });
     run_for(0);
 }
 

@@ -44,8 +44,7 @@ struct Writer final : host::LiveObserver {
     }
     void on_notice(SimTime, board::Level, std::string_view) override {}
     void on_event(SimTime now, machine::EventId event) override {
-        text +=
-            fmt::format("{} ! {}\n", now.count(), machine::events()[static_cast<std::size_t>(event)].name);
+        text += fmt::format("{} ! {}\n", now.count(), event->name);
     }
     void on_link(SimTime, link::LinkState, std::string_view) override {}
     std::string& text;

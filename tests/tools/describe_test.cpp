@@ -83,7 +83,7 @@ TEST_CASE("describe: every kind of fault and every attribute is there, for peopl
     for (const fault::CommonAttribute& attribute : fault::common_attributes()) {
         check_attribute(attribute);
     }
-    CHECK(faults["printer"]["kinds"].size() == machine::breakdowns().size());
+    CHECK(faults["printer"]["kinds"].size() == machine::fault_rows().size());
     for (const fault::Kind* kind : fault::printer_kinds()) {
         CAPTURE(kind->name);
         CHECK(text.find("\n  " + std::string(kind->name) + " ") != std::string::npos);

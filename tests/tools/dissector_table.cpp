@@ -76,8 +76,9 @@ void add_field(std::string& out, const FieldInfo& field) {
 
 void add_code(std::string& out, const CodeInfo& code) {
     const auto to = std::back_inserter(out);
-    fmt::format_to(to, "        {{ code = {}{}, title = {}, meaning = {}", lua_text(protocol::code_text(code)),
-                   code.letter == 0 ? ", words = true" : "", lua_text(code.title), lua_text(code.meaning));
+    fmt::format_to(to, "        {{ code = {}{}, title = {}, meaning = {}",
+                   lua_text(protocol::code_text(code)), code.letter == 0 ? ", words = true" : "",
+                   lua_text(code.title), lua_text(code.meaning));
     if (!code.answer.empty()) {
         fmt::format_to(to, ", answer = {}", lua_text(code.answer));
     }

@@ -53,7 +53,7 @@ json everything() {
         "variables": { "v": { "value": 1, "min": 0, "max": 2, "help": "h" } },
         "defaults": { "addons.sound": true, "settings.steps.x": 81, "var.v": 2 },
         "machine": {
-            "udisk_port": true, "board_fan_percent": 40, "manual_level_start_mm": 5, "job": { "finished_s": 5 },
+            "kind": "resin", "udisk_port": true, "board_fan_percent": 40, "manual_level_start_mm": 5, "job": { "finished_s": 5 },
             "thermal": {
                 "period_ms": 100, "warm_up_measurements": 0, "printed": "true",
                 "nozzle": {

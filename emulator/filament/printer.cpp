@@ -1,0 +1,129 @@
+#include "emulator/filament/printer.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "emulator/filament/event_rows.h"
+
+namespace fauxboard::filament {
+
+Printer::Printer(std::shared_ptr<const Config> config, const machine::Services& services, std::uint64_t seed)
+    : Machine(kind_row(), config, services, seed, host),
+      config_(std::move(config)),
+      thermal(config_->thermal, seed),
+      motion(config_->motion, settings),
+      moves(config_->motion, leveling, motion, events, loop),
+      feeder(config_->filament),
+      gcode{motion, moves, thermal, wait, mixer, fans, settings, modal, job, events, *this},
+      runner(gcode, storage, config_->job),
+      host(gcode, transfer, config_->host),
+      recovery(gcode, storage, runner) {
+    recovery.load(services.job_place);
+}
+
+void Printer::power_on_parts(SimTime now) {
+    thermal.power_on(now);
+    settings = Settings{};
+    motion.power_on();
+    feeder.power_on();
+    wait.power_on();
+    mixer.power_on();
+    addons = AddOns{};
+    fans = Fans{};
+    leveling = Leveling{};
+    leveling.manual_z_mm = config_->manual_level_start_mm;
+    filament.detector = Filament{}.detector;  // whether filament is in it is physical and stays
+    runner.power_on();
+    modal = {};
+    recovery.power_on();
+    screen = ScreenSide{};
+    steppers = Steppers{};
+    tuning = false;
+}
+
+void Printer::run_parts(SimTime now) {
+    raise_alarms();
+    const bool was_moving = motion.busy();
+    moves.advance(now);
+    feeder.advance(now, events);
+    wait.advance(now, thermal, events);
+    runner.advance(now);
+    host.advance(now);
+    recovery.advance(now);
+    motion.start_stream(now);
+    recovery.keep(now);
+    follow_filament();
+    if (was_moving) {
+        emit_after_motion();
+    }
+}
+
+SimTime Printer::next_of_parts() const {
+    return std::min({motion.next_event(), feeder.next_event(), wait.next_event(), next_of_job(),
+                     host.next_event(now()), recovery.next_event(now()), thermal.next_alarm_check()});
+}
+
+SimTime Printer::next_of_job() const {
+    // Asked several times for each request; most boards print nothing.
+    return job.status() == JobStatus::printing || runner.shows_finished() ? runner.next_event(now()) : never;
+}
+
+bool Printer::restless_parts() const {
+    return motion.busy() || feeder.mode() != Feeder::Mode::idle || wait.active() || !thermal.settled();
+}
+
+void Printer::hang_parts(bool powered) {
+    motion.abort();
+    feeder.power_on();
+    thermal.freeze(powered);
+}
+
+void Printer::emit_after_motion() {
+    if (job.pausing() && !motion.busy()) {
+        job.pause(now());
+        events.raise(event("job.paused"));
+    }
+}
+
+void Printer::seek_job(double byte) {
+    job.set_byte(byte);
+    if (job.active()) {
+        runner.seek();
+    }
+}
+
+void Printer::job_pauses(bool park) {
+    runner.pause();
+    if (park) {
+        run("park");
+    }
+    emit_after_motion();
+}
+
+void Printer::job_stops() {
+    recovery.abort();
+    recovery.drop();
+    motion.abort();
+    thermal.set_target(HeaterId::nozzle, 0);
+    thermal.set_target(HeaterId::bed, 0);
+}
+
+void Printer::job_ends() {
+    runner.finished(now());
+    recovery.drop();
+}
+
+void Printer::all_off(bool had_job) {
+    if (had_job) {
+        recovery.abort();
+        recovery.drop();
+    }
+    runner.stop();
+    feeder.power_on();
+    wait.cancel(events);
+    thermal.set_target(HeaterId::nozzle, 0);
+    thermal.set_target(HeaterId::bed, 0);
+    motors_off();
+}
+
+}  // namespace fauxboard::filament
