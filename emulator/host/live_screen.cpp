@@ -90,15 +90,11 @@ void LiveScreen::feed(SimTime now) {
     if (inbox_.empty()) {
         return;
     }
-    if (now >= window_end_) {
-        window_end_ = now + screen_.profile().line.tick;
-        window_room_ = screen_.profile().line.buffer_bytes;
-    }
-    const std::size_t size = std::min(window_room_, inbox_.size());
+    // Pauses that were on the line are gone once its bytes have waited for this process to be run.
+    const std::size_t size = std::min(screen_.room(), inbox_.size());
     if (size != 0) {
         screen_.receive(now, std::string_view(inbox_).substr(0, size));
         inbox_.erase(0, size);
-        window_room_ -= size;
     }
 }
 
@@ -112,7 +108,7 @@ void LiveScreen::turn() {
     }
     const SimTime at = now();
     SimTime due = at;
-    for (int i = 0; i < steps_per_turn && due <= at; ++i) {
+    for (int i = 0; i < steps_per_turn && (due <= at || (!inbox_.empty() && screen_.room() != 0)); ++i) {
         feed(at);
         due = advance(at);
         send_output();
@@ -120,9 +116,6 @@ void LiveScreen::turn() {
     }
     if (user_ != nullptr) {
         due = std::min(due, user_->on_turn(at));
-    }
-    if (!inbox_.empty()) {
-        due = std::min(due, window_end_);
     }
     alarm_->at(due == machine::never ? due : std::max(SimTime{0}, line_time(due)));
 }

@@ -81,8 +81,6 @@ class LiveScreen final : public link::LinkListener {
     protocol::LineSplitter from_board_;
     protocol::LineSplitter to_board_;
     std::string inbox_;      ///< has arrived, but not yet as a UART would have brought it
-    SimTime window_end_{0};  ///< of the look into the buffer that is being filled
-    std::size_t window_room_ = 0;
     std::uint64_t seen_ = 0;  ///< lines judged and told
     std::uint64_t lines_heard_ = 0;
     std::uint64_t bytes_dropped_ = 0;

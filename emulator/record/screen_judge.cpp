@@ -21,16 +21,7 @@ class Judge {
         if (entry.from != RecordedLine::From::board) {
             return;
         }
-        const std::string_view line = entry.bytes;
-        const std::size_t room = profile_->line.buffer_bytes;
-        const std::string_view text = line.substr(0, line.find('\0')).substr(0, room);
-        const screen::Taken taken = screen::take_line(*profile_, text, values_);
-        if (text.size() != line.size()) {
-            mark(Verdict::cut,
-                 text.size() == room ? fmt::format("the line is longer than {} bytes", room)
-                                     : "a NUL ends the text",
-                 marks);
-        }
+        const screen::Taken taken = screen::take_received(*profile_, entry.bytes, values_);
         if (taken.judgement.verdict != Verdict::ok) {
             mark(taken.judgement.verdict, taken.judgement.why, marks);
         }

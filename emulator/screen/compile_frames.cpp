@@ -18,8 +18,9 @@ namespace {
 
 constexpr int max_read_depth = 8;
 constexpr std::array<std::string_view, 3> kind_names{"number", "text", "list"};
-constexpr std::array<std::string_view, 8> as_names{"u8",   "u16",  "i32",        "real",
-                                                   "text", "mark", "list_start", "list_entry"};
+constexpr std::array<std::string_view, 9> as_names{"u8",   "u16",        "i32",        "real",    "text",
+                                                   "mark", "list_start", "list_entry", "list_end"};
+constexpr std::array<std::string_view, 2> bounds_names{"kept", "read"};
 constexpr std::array<std::string_view, 2> from_names{"last", "start"};
 constexpr std::array<std::string_view, 4> bad_names{"drop_rest", "crash", "zero", "cut"};
 
@@ -75,6 +76,10 @@ ValueInfo Compiler::value_info(const std::string& name, const Json& node, const 
         unsigned most = 64;
         reader.unsigned_integer("most", most, 1, 1024);
         info.most = most;
+        unsigned shows = most;
+        reader.unsigned_integer("shows_most", shows, 1, most);
+        info.shows_most = shows;
+        reader.boolean("at_end", info.at_end);
     }
     reader.finish();
     return info;
@@ -107,11 +112,15 @@ void Compiler::read_bounds(ObjectReader& reader, Read& out) {
             *bound = number;
         }
     }
+    pick(reader, "bounds_of", bounds_names, out.bounds_first);
     pick(reader, "outside", bad_names, out.outside);
     reader.wire_text("until", out.until, 32);
     unsigned number = 0;
     reader.unsigned_integer("less", number, 0, 8);
     out.less = number;
+    number = 0;
+    reader.unsigned_integer("min_bytes", number, 1, 1024);
+    out.min_bytes = number;
     number = 0;
     reader.unsigned_integer("max_bytes", number, 1, 1024);
     out.max_bytes = number;

@@ -13,9 +13,10 @@ namespace {
 /// Reads the keys of one frame. The place in the text moves on as the firmware's pointer does.
 class KeyReader {
   public:
-    KeyReader(std::string_view text, const ScreenProfile& profile, std::vector<Shown>& values,
-              Judgement& judgement)
-        : text_(text), profile_(profile), values_(values), judgement_(judgement) {}
+    /// `frame_end` is where the checksum of a frame begins that this screen does not take off.
+    KeyReader(std::string_view text, std::size_t frame_end, const ScreenProfile& profile,
+              std::vector<Shown>& values, Judgement& judgement)
+        : text_(text), frame_end_(frame_end), profile_(profile), values_(values), judgement_(judgement) {}
 
     /// False when the rest of the line is not taken.
     bool read_all(const std::vector<Read>& reads) {
@@ -31,7 +32,7 @@ class KeyReader {
   private:
     bool read_one(const Read& read) {
         const std::size_t from = read.from == Read::From::last     ? at_
-                                 : read.from == Read::From::column ? read.column
+                                 : read.from == Read::From::column ? std::min(read.column, text_.size())
                                                                    : 0;
         const std::size_t hit = from <= text_.size() ? text_.find(read.key, from) : std::string_view::npos;
         if (hit == std::string_view::npos) {
@@ -53,8 +54,10 @@ class KeyReader {
             case Read::As::mark:
                 return true;
             case Read::As::list_start:
-                values_[*read.into].list.clear();
-                carry(read);
+                start_list(read);
+                return true;
+            case Read::As::list_end:
+                end_list(read);
                 return true;
             case Read::As::list_entry:
                 return take_entry(read);
@@ -104,12 +107,19 @@ class KeyReader {
         const ReadInteger integer = read_integer(text_.substr(at_));
         at_ += integer.used;
         note_no_number(read, integer.used);
-        const std::uint32_t bits = static_cast<std::uint32_t>(integer.value);
+        return integer.value;
+    }
+    double kept(const Read& read, double number) {
+        if (read.as == Read::As::real) {
+            return number;
+        }
+        const auto value = static_cast<std::int64_t>(number);
+        const std::uint32_t bits = static_cast<std::uint32_t>(value);
         const std::int64_t kept = read.as == Read::As::u8    ? bits & 0xFFU
                                   : read.as == Read::As::u16 ? bits & 0xFFFFU
-                                                             : std::int64_t{integer.value};
-        if (kept != integer.value) {
-            say(Verdict::misread, fmt::format("\"{}\" {} is taken as {}", read.key, integer.value, kept));
+                                                             : value;
+        if (kept != value) {
+            say(Verdict::misread, fmt::format("\"{}\" {} is taken as {}", read.key, value, kept));
         }
         return static_cast<double>(kept);
     }
@@ -121,6 +131,9 @@ class KeyReader {
 
     bool take_number(const Read& read) {
         double value = number(read);
+        if (!read.bounds_first) {
+            value = kept(read, value);
+        }
         if ((read.min && value < *read.min) || (read.max && value > *read.max)) {
             const std::string why =
                 read.why.empty() ? fmt::format("\"{}\" {} is out of bounds{}", read.key, short_text(value),
@@ -130,6 +143,9 @@ class KeyReader {
                 return false;
             }
             value = 0;
+        }
+        if (read.bounds_first) {
+            value = kept(read, value);
         }
         if (read.into) {
             values_[*read.into].number = value;
@@ -159,6 +175,10 @@ class KeyReader {
             }
             text = text.substr(0, read.max_bytes);
         }
+        if (text.size() < read.min_bytes) {
+            return fail(Read::Bad::drop_rest, "an empty text");
+        }
+        note_frame("text");
         if (read.into) {
             values_[*read.into].text = text;
             carry(read);
@@ -180,12 +200,43 @@ class KeyReader {
                  fmt::format("a name of {} characters, there is room for {}", name.size(), read.max_bytes));
             name = name.substr(0, read.max_bytes);
         }
-        auto& list = values_[*read.into].list;
+        at_ = text_.size();
+        note_frame("name");
+        Shown& value = values_[*read.into];
+        auto& list = profile_.values.at(*read.into).at_end ? value.coming : value.list;
         const auto slot = static_cast<std::size_t>(index.value);
         list.resize(std::max(list.size(), slot + 1));
         list[slot] = name;
         carry(read);
         return true;
+    }
+
+    void start_list(const Read& read) {
+        Shown& value = values_[*read.into];
+        value.list.clear();
+        value.coming.clear();
+        if (!profile_.values.at(*read.into).at_end) {
+            carry(read);
+        }
+    }
+    void end_list(const Read& read) {
+        const ValueInfo& info = profile_.values.at(*read.into);
+        Shown& value = values_[*read.into];
+        if (value.coming.size() > info.shows_most) {
+            say(Verdict::misread, fmt::format("a list of {} entries is shown as none; at most {} are",
+                                              value.coming.size(), info.shows_most));
+            value.coming.clear();
+        }
+        value.list = std::move(value.coming);
+        value.coming.clear();
+        carry(read);
+    }
+
+    /// What was read goes on to the end of a frame, which this screen does not know for one.
+    void note_frame(std::string_view what) {
+        if (at_ > frame_end_) {
+            say(Verdict::misread, fmt::format("the frame's checksum becomes part of the {}", what));
+        }
     }
 
     void carry(const Read& read) {
@@ -194,6 +245,7 @@ class KeyReader {
     }
 
     std::string_view text_;
+    std::size_t frame_end_;
     const ScreenProfile& profile_;
     std::vector<Shown>& values_;
     Judgement& judgement_;
@@ -258,17 +310,22 @@ Taken take_line(const ScreenProfile& profile, std::string_view line, std::vector
     Judgement& judgement = taken.judgement;
     judgement.line = line;
     std::string_view text = line;
+    std::size_t frame_end = line.size();
+    const auto unframed = protocol::unframe(line, protocol::ChecksumPolicy::required);
+    const bool framed = unframed.prefixed && unframed.fault == protocol::FrameFault::none;
     const auto ignore = [&](const std::string& why) {
         judgement.verdict = Verdict::ignored;
         judgement.why += judgement.why.empty() || why.empty() ? why : "; " + why;
         return taken;
     };
     if (profile.line.framed_in) {
-        const auto unframed = protocol::unframe(line, protocol::ChecksumPolicy::required);
-        if (!unframed.prefixed || unframed.fault != protocol::FrameFault::none) {
+        if (!framed) {
             return ignore(frame_fault(unframed, line));
         }
         text = unframed.body;
+        frame_end = text.size();
+    } else if (framed) {
+        frame_end = line.rfind('*');
     }
     const FrameRule* rule = find_rule(profile, text, judgement);
     if (rule == nullptr) {
@@ -287,7 +344,29 @@ Taken take_line(const ScreenProfile& profile, std::string_view line, std::vector
         return ignore(hit->ignored);
     }
     taken.how = &*hit;
-    KeyReader(text, profile, values, judgement).read_all(hit->read);
+    KeyReader reader(text, frame_end, profile, values, judgement);
+    reader.read_all(hit->read);
+    if (hit->restarts) {
+        reader.say(Verdict::restarts, "the screen starts anew");
+    }
+    return taken;
+}
+
+Taken take_received(const ScreenProfile& profile, std::string_view line, std::vector<Shown>& values) {
+    if (line.size() >= profile.line.buffer_bytes) {
+        Taken lost;
+        lost.judgement.line = line;
+        lost.judgement.verdict = Verdict::ignored;
+        lost.judgement.why = fmt::format("a line of {} bytes or more is lost", profile.line.buffer_bytes);
+        return lost;
+    }
+    const std::size_t nul = line.find('\0');
+    Taken taken = take_line(profile, line.substr(0, nul), values);
+    if (nul != std::string_view::npos) {
+        taken.judgement.verdict = std::max(taken.judgement.verdict, Verdict::cut);
+        taken.judgement.why += taken.judgement.why.empty() ? "" : "; ";
+        taken.judgement.why += "a NUL ends the text";
+    }
     return taken;
 }
 

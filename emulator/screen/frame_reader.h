@@ -18,4 +18,8 @@ struct Taken {
 /// limits of the profile, and says what became of it. Any bytes are fine.
 Taken take_line(const ScreenProfile& profile, std::string_view line, std::vector<Shown>& values);
 
+/// The same for a line as it was received: a NUL ends its text, and one that fills the receiving ring is
+/// lost.
+Taken take_received(const ScreenProfile& profile, std::string_view line, std::vector<Shown>& values);
+
 }  // namespace fauxboard::screen

@@ -7,8 +7,8 @@
 namespace fauxboard::screen {
 
 std::string_view verdict_words(Verdict verdict) {
-    static constexpr std::array<std::string_view, 7> words{"ok",           "ignored", "part missed", "cut",
-                                                           "rest dropped", "misread", "would crash"};
+    static constexpr std::array<std::string_view, verdict_count> words{
+        "ok", "ignored", "part missed", "cut", "rest dropped", "misread", "restarts", "would crash"};
     return words[static_cast<std::size_t>(verdict)];
 }
 

@@ -19,10 +19,13 @@ enum class Verdict : std::uint8_t {
     cut,           ///< a text or the line is longer than the screen's room for it
     rest_dropped,  ///< a value out of bounds: it and what follows is not taken
     misread,       ///< taken, but as something else than was meant
+    restarts,      ///< the screen starts anew, for it is told to
     would_crash,   ///< the screen's processor faults and the screen starts anew
 };
 
-/// "ok", "ignored", "part missed", "cut", "rest dropped", "misread", "would crash".
+inline constexpr std::size_t verdict_count = 8;
+
+/// "ok", "ignored", "part missed", "cut", "rest dropped", "misread", "restarts", "would crash".
 std::string_view verdict_words(Verdict verdict);
 
 /// A value that a line set, as it was then.

@@ -18,7 +18,7 @@ constexpr std::size_t max_output = 64UL * 1024;
 
 Screen::Screen(std::shared_ptr<const ScreenProfile> profile)
     : profile_(std::move(profile)),
-      intake_(profile_->line.buffer_bytes),
+      intake_(profile_->line.buffer_bytes, profile_->line.byte_time, profile_->line.tick),
       values_(profile_->values.power_on()),
       page_(profile_->main_page),
       before_(profile_->main_page) {}
@@ -29,12 +29,12 @@ void Screen::power_on(SimTime now) {
 }
 
 void Screen::restart(SimTime now) {
-    intake_.forget();
+    intake_.start(now);
     answers_.clear();
     values_ = profile_->values.power_on();
     page_ = before_ = profile_->main_page;
     on_ = hello_due_ = true;
-    time_ = power_on_ = received_ = touched_ = now;
+    time_ = power_on_ = touched_ = now;
 }
 
 void Screen::receive(SimTime now, std::string_view bytes) {
@@ -43,11 +43,7 @@ void Screen::receive(SimTime now, std::string_view bytes) {
         counters_.bytes_unheard += bytes.size();
         return;
     }
-    // An earlier part of the same burst has waited for the tick already; the tick does not move.
-    if (!intake_.waiting()) {
-        received_ = std::max(now, time_);
-    }
-    intake_.receive(bytes);
+    intake_.receive(std::max(now, time_), bytes);
 }
 
 SimTime Screen::advance(SimTime now) {
@@ -79,11 +75,7 @@ SimTime Screen::next_due() const {
     if (hello_due_) {
         return power_on_ + profile_->line.deaf;
     }
-    SimTime due = idle_due();
-    if (intake_.waiting()) {
-        const auto ticks = (received_ - power_on_) / profile_->line.tick + 1;
-        due = std::min(due, power_on_ + ticks * profile_->line.tick);
-    }
+    const SimTime due = std::min(idle_due(), intake_.next_look());
     return answers_.empty() ? due : std::min(due, answers_.front().at);
 }
 
@@ -96,7 +88,7 @@ void Screen::step(SimTime due) {
         const std::string body = std::move(answers_.front().body);
         answers_.pop_front();
         send(body);
-    } else if (intake_.waiting() && idle_due() > due) {
+    } else if (intake_.next_look() <= due && idle_due() > due) {
         drain();
     } else {
         const Scope scope{values_, 0, {}, 0};
@@ -106,7 +98,7 @@ void Screen::step(SimTime due) {
 }
 
 void Screen::drain() {
-    const std::size_t lost = intake_.drain([this](const IntakeLine& line) { take(line); });
+    const std::size_t lost = intake_.drain(time_, [this](const IntakeLine& line) { take(line); });
     if (lost != 0) {
         counters_.bytes_lost += lost;
         Judgement judgement;
@@ -120,20 +112,10 @@ void Screen::drain() {
 }
 
 void Screen::take(const IntakeLine& line) {
-    Taken taken = take_line(*profile_, line.text, values_);
+    Taken taken = take_received(*profile_, line.text, values_);
     Judgement& judgement = taken.judgement;
     judgement.at = time_;
     judgement.number = ++counters_.lines_received;
-    const auto add = [&](const std::string& why) {
-        judgement.verdict = std::max(judgement.verdict, Verdict::cut);
-        judgement.why += (judgement.why.empty() ? "" : "; ") + why;
-    };
-    if (line.cut) {
-        add(fmt::format("the line is longer than {} bytes", profile_->line.buffer_bytes));
-    }
-    if (line.nul) {
-        add("a NUL ends the text");
-    }
     ++counters_.verdicts[static_cast<std::size_t>(judgement.verdict)];
     record(judgement);
     act_on(taken);
@@ -156,8 +138,8 @@ void Screen::act_on(const Taken& taken) {
     const Scope scope{values_, 0, {}, 0};
     for (const Send& answer : taken.how->answer) {
         if (all_hold(answer.when, scope) && answers_.size() < max_answers) {
-            answers_.push_back(
-                {std::max(time_, received_ + profile_->line.answer_after), answer.line.render(scope)});
+            answers_.push_back({std::max(time_, intake_.arrived() + profile_->line.answer_after),
+                                answer.line.render(scope)});
         }
     }
     if (const auto to = standpoint().destination(taken.how->opens, scope)) {
@@ -204,7 +186,7 @@ void Screen::assume(const std::vector<Assign>& assigns, const Scope& scope) {
     for (const Assign& assign : assigns) {
         const bool text = profile_->values.at(assign.value).kind == ValueKind::text;
         fresh.push_back(
-            {text ? 0 : assign.expression.evaluate(scope), text ? assign.text.render(scope) : "", {}});
+            {text ? 0 : assign.expression.evaluate(scope), text ? assign.text.render(scope) : "", {}, {}});
     }
     for (std::size_t i = 0; i < assigns.size(); ++i) {
         values_[assigns[i].value].number = fresh[i].number;

@@ -28,7 +28,7 @@ struct PressResult {
 /// Everything that was counted since the screen was made.
 struct ScreenCounters {
     std::uint64_t lines_received = 0;
-    std::array<std::uint64_t, 7> verdicts{};  ///< of them, by Verdict
+    std::array<std::uint64_t, verdict_count> verdicts{};  ///< of them, by Verdict
     std::uint64_t lines_sent = 0;
     std::uint64_t bytes_lost = 0;     ///< came while the buffer was full
     std::uint64_t bytes_unheard = 0;  ///< came while the screen was starting or off
@@ -59,6 +59,8 @@ class Screen {
     void clear_output() { output_.clear(); }
     /// The moment of the last thing done.
     SimTime time() const { return time_; }
+    /// So many bytes may be received now, in one go, and none of them will be lost.
+    std::size_t room() const { return intake_.room(); }
     /// Switched on and past its start: it hears and can be touched.
     bool ready() const { return on_ && !hello_due_; }
 
@@ -126,7 +128,6 @@ class Screen {
     bool hello_due_ = false;
     SimTime time_{0};
     SimTime power_on_{0};
-    SimTime received_{0};
     SimTime touched_{0};
     std::deque<Answer> answers_;
     std::string output_;

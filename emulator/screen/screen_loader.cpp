@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::size_t max_pages = 256;
 constexpr std::size_t max_buttons = 2048;
+constexpr double bits_per_byte = 10;  // 8N1
 
 void read_line_rules(Compiler& compiler, const Json& node, LineRules& out) {
     ObjectReader reader(node, "/line", compiler.findings);
@@ -29,6 +30,11 @@ void read_line_rules(Compiler& compiler, const Json& node, LineRules& out) {
     number = static_cast<unsigned>(out.code_within);
     reader.unsigned_integer("code_within", number, 1, 256);
     out.code_within = number;
+    number = 0;
+    reader.unsigned_integer("baud", number, 300, 4'000'000);
+    if (number != 0) {
+        out.byte_time = machine::from_seconds(bits_per_byte / number);
+    }
     compiler.time(reader, "tick_ms", out.tick, 1, 1000);
     compiler.time(reader, "answer_after_ms", out.answer_after, 0, 1000);
     compiler.time(reader, "deaf_ms", out.deaf, 0, 60'000);

@@ -25,17 +25,18 @@ struct LineRules {
     bool framed_in =
         false;  ///< takes frames with a right checksum only; else looks for its codes in any line
     bool framed_out = false;          ///< sends "N-0 body*XOR"; else bare lines
-    std::size_t buffer_bytes = 1279;  ///< what fits between two looks into the buffer; a longer line is cut
-    SimTime tick{20'000};             ///< it looks into the buffer so often
-    SimTime answer_after{12'000};     ///< an answer leaves no sooner after the line came
-    SimTime deaf{1'200'000};          ///< from power-on; what comes meanwhile is lost
-    std::size_t code_within = 8;      ///< the L must stand in so many first bytes
-    std::string hello;                ///< said once it hears, as it stands, line end included
+    std::size_t buffer_bytes = 1279;  ///< the receiving ring; a line that fills it is lost
+    SimTime byte_time{0};  ///< a byte takes so long on the line; 0: what comes together is there at once
+    SimTime tick{20'000};  ///< it looks into the ring so often
+    SimTime answer_after{12'000};  ///< an answer leaves no sooner after the line came
+    SimTime deaf{1'200'000};       ///< from power-on; what comes meanwhile is lost
+    std::size_t code_within = 8;   ///< the L must stand in so many first bytes
+    std::string hello;             ///< said once it hears, as it stands, line end included
 };
 
 /// How one key of a frame is read.
 struct Read {
-    enum class As : std::uint8_t { u8, u16, i32, real, text, mark, list_start, list_entry };
+    enum class As : std::uint8_t { u8, u16, i32, real, text, mark, list_start, list_entry, list_end };
     enum class From : std::uint8_t { last, start, column };
     enum class Bad : std::uint8_t { drop_rest, crash, zero, cut };
 
@@ -46,9 +47,12 @@ struct Read {
     std::optional<std::size_t> into;  ///< value, or list for list_start and list_entry
     std::optional<double> min;
     std::optional<double> max;
+    bool bounds_first =
+        false;  ///< the bounds are those of the number as it was read, before it is cut to its kind
     Bad outside = Bad::drop_rest;
     std::string until;          ///< texts: what ends them; empty: the end of the line
     std::size_t less = 0;       ///< texts: so many bytes before `until` do not belong to it
+    std::size_t min_bytes = 0;  ///< texts: a shorter one is not taken
     std::size_t max_bytes = 0;  ///< texts: room; 0 no limit
     Bad too_long = Bad::cut;
     Bad no_end = Bad::drop_rest;

@@ -23,6 +23,8 @@ struct ValueInfo {
     std::string start_text;                     ///< the same for texts
     std::map<std::int64_t, std::string> names;  ///< words for whole numbers; may be empty
     std::size_t most = 0;                       ///< lists: entries it holds at most
+    std::size_t shows_most = 0;                 ///< lists: of more than that none is shown
+    bool at_end = false;                        ///< lists: shown when complete, and not as its entries come
 };
 
 /// The values of one screen, in the order of the declarations.
@@ -30,6 +32,7 @@ struct Shown {
     double number = 0;  ///< of a list: nothing; its length is its number
     std::string text;
     std::vector<std::string> list;
+    std::vector<std::string> coming;  ///< entries of a list that is shown when complete
 };
 
 /// All declarations of a profile. A value is known by its index from then on.

@@ -99,6 +99,11 @@ class Replay {
     std::string bytes;
 };
 
+/// Texts up to the end of the line: of these a screen that knows no frames takes the checksum for a part.
+bool ends_with_frame(const std::string& frame) {
+    return frame == "L7" || frame == "L14";
+}
+
 }  // namespace
 
 TEST_CASE(
@@ -174,8 +179,9 @@ TEST_CASE("the recorded lines, all fed to each screen: none would crash it, and 
             ++board_lines;
             const bool known = std::string_view(name) == "geeetech-a30t"
                                    ? judgement.frame != "L12"
-                                   : judgement.frame != "L12" && judgement.frame != "L22" &&
-                                         judgement.frame != "L23" && judgement.frame != "L24";
+                                   : !ends_with_frame(judgement.frame) && judgement.frame != "L12" &&
+                                         judgement.frame != "L22" && judgement.frame != "L23" &&
+                                         judgement.frame != "L24";
             not_ok += known && judgement.verdict != screen::Verdict::ok ? 1U : 0U;
             CHECK_MESSAGE((!known || judgement.verdict == screen::Verdict::ok), judgement.sentence());
         }

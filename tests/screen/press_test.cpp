@@ -174,6 +174,7 @@ TEST_CASE("the file list: rows by number and by name, folders, the way back") {
     Bench other("geeetech-a30");
     other.press("Printing");
     other.say("L7 P0 a.gcode");
+    other.say("L7 end file list:0");
     other.press("File 1");
     CHECK(other.press("Print?/yes") == "M23 a.gcode*" +
                                            std::to_string(protocol::xor_checksum("N-0 L7 P0 a.gcode")) +
