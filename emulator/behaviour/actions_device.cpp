@@ -55,6 +55,7 @@ constexpr std::array file_args{ArgInfo{"name", text, true, "file, relative to th
 constexpr std::array seek_args{ArgInfo{"byte", number, true, "position in the file"}};
 constexpr std::array prefix_args{
     ArgInfo{"fields", text, false, "only fields whose path starts so; all if left out"}};
+constexpr std::array timer_args{ArgInfo{"ms", number, true, "how long from now, ms", "ms"}};
 constexpr std::array stall_args{ArgInfo{"ms", number, true, "time, ms", "ms"},
                                 ArgInfo{"most_ms", number, false, "upper end of a random range", "ms"}};
 
@@ -108,6 +109,11 @@ constexpr std::array table{
                "shows the root folder",
                {},
                [](ActionContext& c, Args) { c.machine.storage.enter_root(); }},
+    ActionInfo{"card.told",
+               "",
+               "the card's list was told: card.news is no more",
+               {},
+               [](ActionContext& c, Args) { c.machine.card_told(); }},
     ActionInfo{"job.select", "", "selects a file; raises file.selected, file.missing or file.unreadable",
                file_args, [](ActionContext& c, Args a) { c.machine.select_file(a[0].text); }},
     ActionInfo{"job.start", "", "starts the file selected, or resumes the paused job", {}, job_start},
@@ -151,6 +157,11 @@ constexpr std::array table{
                "M112: job, heaters and motors off at once",
                {},
                [](ActionContext& c, Args) { c.machine.emergency_stop(); }},
+    ActionInfo{"timer.start", "", "raises timer.over after a time; a timer that runs is set anew", timer_args,
+               [](ActionContext& c, Args a) {
+                   const double ms = std::clamp(a[0].number, 0.0, 86'400'000.0);
+                   c.machine.start_timer(machine::from_seconds(ms / 1000));
+               }},
     ActionInfo{"board.stall", "", "the main loop, and with it the status wheel, stands still for a time",
                stall_args, board_stall},
     ActionInfo{"board.reset",

@@ -29,10 +29,20 @@ constexpr std::array table{
                   p.storage.listing(entries, p.config().card.max_listed);
                   return entries.size();
               }),
+    row.shown("card.news", boolean, "",
+              "a card was read in or taken out, and its list not told since (card.told)",
+              [](const Machine& p) { return p.card_news(); }),
     row.shown("card.folder", text, "", "folder shown, empty at the root",
               [](const Machine& p) { return std::string_view{p.storage.folder()}; }),
-    row.shown("job.status", integer, "", "PS of L3: 0 idle, 1 printing, 2 paused, 3 recovery, 4 finished",
-              [](const Machine& p) { return static_cast<int>(p.job.status()); }),
+    row.shown(
+        "job.status", integer, "",
+        "PS of L3: 0 idle, 1 printing, 2 paused, 3 recovery, 4 finished (0 where machine.job.ends_idle)",
+        [](const Machine& p) {
+            const bool ended = p.job.status() == machine::JobStatus::finished && p.config().ends_idle;
+            return ended ? 0 : static_cast<int>(p.job.status());
+        }),
+    row.shown("job.ending", boolean, "", "the job is at its end, and not closed yet",
+              [](const Machine& p) { return p.job.status() == machine::JobStatus::finished; }),
     row.shown("job.volume", integer, "", "VL of L3: disk the job is on, 0 SD card, 1 U-disk",
               [](const Machine& p) { return p.job.volume(); }),
     row.shown("job.path", text, "", "file selected, relative to its disk",
@@ -43,11 +53,10 @@ constexpr std::array table{
                   return path.substr(path.rfind('/') + 1);
               }),
     row.shown("job.shown_path", text, "",
-              "FN of L3: job.path while a job is under way or has just finished, else empty",
-              [](const Machine& p) {
-                  return p.job.status() == machine::JobStatus::idle ? std::string_view{}
-                                                                    : std::string_view{p.job.path()};
-              }),
+              "FN of L3: the file that is printed, or was last; it stays when the print is over",
+              [](const Machine& p) { return std::string_view{p.job.shown()}; }),
+    row.shown("job.called", text, "", "the file selected as the card's list calls it",
+              [](const Machine& p) { return std::string_view{p.job.called()}; }),
     row.shown("job.selected", boolean, "", "a file is selected",
               [](const Machine& p) { return p.job.selected(); }),
     row.shown("job.pausing", boolean, "", "a pause was asked for and the head is on its way to park",
@@ -56,6 +65,12 @@ constexpr std::array table{
               [](const Machine& p) { return p.job.active(); }),
     row.shown("job.progress", integer, "%", "PG of L3",
               [](const Machine& p) { return p.job.progress_percent(); }),
+    row.shown("job.progress_exact", number, "%", "the same, with its decimals",
+              [](const Machine& p) { return p.job.progress(); }),
+    row.shown("job.shown_seconds", integer, "s", "job.seconds; of the print before, when there is none",
+              [](const Machine& p) {
+                  return static_cast<double>(p.job.shown_elapsed(p.now()) / std::chrono::seconds(1));
+              }),
     row.shown("job.seconds", integer, "s", "TM of L3: time printed, pauses left out",
               [](const Machine& p) {
                   return static_cast<double>(p.job.elapsed(p.now()) / std::chrono::seconds(1));

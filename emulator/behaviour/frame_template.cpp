@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
 
 #include "emulator/behaviour/number_text.h"
 #include "protocol/framing.h"
@@ -33,6 +34,22 @@ Written copy_text(std::string_view text, std::span<char> out, bool lower, bool u
 /// Without its decimals, as a cast to int does it; -0.5 becomes 0, not -0. Bounds as write_fixed() has them.
 double cut_off(double value) {
     return static_cast<double>(static_cast<long long>(std::clamp(value, -1e15, 1e15)));
+}
+
+/// ".49s" is 49, as printf has it: of a text so many bytes at most.
+std::optional<std::size_t> text_limit(std::string_view format) {
+    constexpr std::size_t most = 512;
+    if (format.size() < 3 || format.front() != '.' || format.back() != 's') {
+        return std::nullopt;
+    }
+    std::size_t limit = 0;
+    for (const char c : format.substr(1, format.size() - 2)) {
+        if (c < '0' || c > '9' || limit > most) {
+            return std::nullopt;
+        }
+        limit = limit * 10 + static_cast<std::size_t>(c - '0');
+    }
+    return limit <= most ? std::optional(limit) : std::nullopt;
 }
 
 bool needs_format(const Operand& operand) {
@@ -99,7 +116,11 @@ void FrameTemplate::add_value(std::string_view inside, const Names& names) {
         format = inside.substr(colon + 1);
     }
     part.operand = parse_reference(reference, names);
-    if (format.size() == 3 && format[0] == '.' && format[2] == 'f' && format[1] >= '0' && format[1] <= '6') {
+    if (const auto most = text_limit(format)) {
+        part.style = Style::text;
+        part.most = *most;
+    } else if (format.size() == 3 && format[0] == '.' && format[2] == 'f' && format[1] >= '0' &&
+               format[1] <= '6') {
         part.style = Style::fixed;
         part.decimals = format[1] - '0';
     } else if (format == "d") {
@@ -115,7 +136,7 @@ void FrameTemplate::add_value(std::string_view inside, const Names& names) {
         part.style = part.operand.is_text() ? Style::text : Style::whole;
     } else {
         throw ExpressionError("unknown format \"" + std::string(format) + "\" in {" + std::string(inside) +
-                                  "}; expected .0f to .6f, d, s, lower or upper",
+                                  "}; expected .0f to .6f, d, s, .1s to .512s, lower or upper",
                               {});
     }
     const bool text_style =
@@ -141,9 +162,10 @@ Written FrameTemplate::render(const Scope& scope, std::span<char> out, bool& cut
             continue;
         }
         if (value.is_text()) {
+            const std::string_view shown = value.text.substr(0, part.most);
             const Written text =
-                copy_text(value.text, room, part.style == Style::lower, part.style == Style::upper);
-            cut = cut || text.size < value.text.size();
+                copy_text(shown, room, part.style == Style::lower, part.style == Style::upper);
+            cut = cut || text.size < shown.size();
             line += text;
             continue;
         }

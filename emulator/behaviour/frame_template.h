@@ -34,7 +34,8 @@ class FrameTemplate {
         Style style = Style::literal;
         std::uint8_t sum = 0;  ///< literal: XOR of its bytes
         int decimals = 0;
-        std::size_t from = 0;  ///< literal: place in literals_
+        std::size_t most = std::string_view::npos;  ///< of a text: so many bytes
+        std::size_t from = 0;                       ///< literal: place in literals_
         std::size_t size = 0;
         Operand operand;
     };

@@ -1,5 +1,7 @@
 #include "emulator/behaviour/machine_loader.h"
 
+#include <algorithm>
+
 namespace fauxboard::behaviour {
 namespace {
 
@@ -46,6 +48,20 @@ void load_entries(const Json& node, const std::string& pointer, Findings& findin
     }
 }
 
+void load_words(ObjectReader& reader, std::string_view key, Findings& findings,
+                std::vector<std::string>& out) {
+    const Json* words = reader.get(key);
+    if (words == nullptr) {
+        return;
+    }
+    if (!words->is_array() || words->size() > 16 ||
+        !std::all_of(words->begin(), words->end(), [](const Json& word) { return word.is_string(); })) {
+        findings.add(reader.pointer(key), found(*words) + "; expected a list of at most 16 texts");
+        return;
+    }
+    out = words->get<std::vector<std::string>>();
+}
+
 }  // namespace
 
 void load_card(const Json& node, const std::string& pointer, Findings& findings, machine::CardConfig& out) {
@@ -54,6 +70,13 @@ void load_card(const Json& node, const std::string& pointer, Findings& findings,
     reader.unsigned_integer("max_listed", out.max_listed, 1, 1000);
     reader.boolean("way_back", out.way_back);
     reader.boolean("ignore_case", out.ignore_case);
+    reader.boolean("newest_first", out.newest_first);
+    reader.boolean("folders", out.folders);
+    load_words(reader, "only", findings, out.only);
+    reader.unsigned_integer("name_bytes", out.name_bytes, 1, 255);
+    reader.boolean("by_list", out.by_list);
+    load_words(reader, "name_ends", findings, out.name_ends);
+    reader.number("rescan_s", out.rescan_s, 0, 600);
     if (const Json* entries = reader.get("entries")) {
         std::size_t count = 0;
         out.entries.clear();

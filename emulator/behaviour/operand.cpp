@@ -63,6 +63,15 @@ std::optional<Operand> parse_parameter(std::string_view reference) {
         operand.text = std::string(reference);
         return operand;
     }
+    constexpr std::string_view dots = "...";
+    if (reference.ends_with(dots)) {
+        reference.remove_suffix(dots.size());
+        if (std::all_of(reference.begin(), reference.end(), capital)) {
+            operand.kind = Operand::Kind::behind;
+            operand.text = std::string(reference);
+            return operand;
+        }
+    }
     return std::nullopt;
 }
 
@@ -139,6 +148,14 @@ Value Operand::evaluate_other(const Scope& scope) const {
             const std::string_view found = scope.command->value_of(text);
             return found.empty() ? Value{} : Value::of(found);
         }
+        case Kind::behind: {
+            const std::size_t found = scope.command->text.find(text);
+            if (found == std::string_view::npos) {
+                return {};
+            }
+            const std::string_view rest = scope.command->text.substr(found + text.size());
+            return Value::of(rest.substr(0, rest.find('*')));
+        }
         default:
             return {};
     }
@@ -151,6 +168,7 @@ bool Operand::is_text() const {
         case Kind::name:
         case Kind::raw_text:
         case Kind::keyed:
+        case Kind::behind:
         case Kind::entry_name:
             return true;
         case Kind::field:

@@ -52,6 +52,7 @@ struct Operand {
         name,       ///< {name}: the same without quotes and the colon of an absolute path
         raw_text,   ///< {text}: everything after the code, leading blank included
         keyed,      ///< {FW:}: the word after "FW:"
+        behind,     ///< {ETE...}: all after the first "ETE", wherever it stands, up to a star
         entry_name,
         entry_index,
         entry_bytes,
@@ -62,7 +63,7 @@ struct Operand {
     double number = 0;
     const Field* field = nullptr;
     std::size_t variable = 0;
-    std::string text;                ///< literal, or the key of `keyed`
+    std::string text;                ///< literal, or the key of `keyed` and `behind`
     std::optional<double> fallback;  ///< {S|255}
 
     static Operand literal(double n);

@@ -37,11 +37,20 @@ enum class Framing : std::uint8_t {
 /// How the main line is spoken.
 struct LineConfig {
     Framing framing = Framing::frames;
+    bool framed = true;  ///< frames that do not say theirs leave as "N-0 ...*XOR"; else as bare lines
     unsigned baud = 115200;
     protocol::ChecksumPolicy checksum = protocol::ChecksumPolicy::required;
     unsigned queue_lines = 64;  ///< requests waiting for their tick; more are lost, as in the board's buffer
     std::string peer = "screen";  ///< what logs call the other end
     SimTime unfinished{0};  ///< a line without an end is taken for whole after so long a silence; 0: never
+    /// A small board's receiving ring, emptied with each tick, and the longest line; 0: as much as there is.
+    /// With either, NULs end a line's text, and comments are left out.
+    unsigned ring_bytes = 0;
+    unsigned line_bytes = 0;
+    char comment = 0;  ///< begins a comment; 0: nothing does
+    std::string
+        codes;  ///< the first of these letters in a line begins its command, whatever stands before it
+    bool small() const { return ring_bytes != 0 || line_bytes != 0; }
 };
 
 /// One message the board can send: one line, or several that leave together.
@@ -56,6 +65,8 @@ struct Frame {
     protocol::LineEnd end = protocol::LineEnd::crlf;
     bool chunk = false;         ///< no lines: the block of a file that transfer.block read
     std::optional<Channel> to;  ///< nothing: the channel that asked; the main line, if nobody asked
+    std::optional<std::size_t>
+        cell;  ///< of a board that queues codes: where its arguments are kept until it leaves
     std::vector<Line> lines;
     std::vector<ActionCall> then;  ///< done when it is queued
     std::vector<const Field*>
@@ -73,13 +84,24 @@ struct Slot {
     unsigned first_round = 0;
     std::optional<std::size_t> only_with;  ///< only in rounds in which this frame went out
     bool always = false;                   ///< due by time alone: nothing but the round count decides
+    bool now = false;                      ///< written at once instead of on the transmit tick
+    bool starts_told = false;              ///< what is so at power-on counts as told
 };
 
 struct Schedule {
     SimTime slot{300'000};
     SimTime first{0};  ///< of slot 0, from power-on
     std::vector<Slot> slots;
-    std::vector<Condition> frozen_while;
+    std::vector<std::vector<Condition>> frozen_while;  ///< any of them
+
+    bool frozen(const Scope& scope) const {
+        for (const std::vector<Condition>& conditions : frozen_while) {
+            if (all_hold(conditions, scope)) {
+                return true;
+            }
+        }
+        return false;
+    }
 };
 
 /// Rules by code: what every request is looked up in.
@@ -128,6 +150,12 @@ class Profile {
     std::vector<std::string> files;  ///< what it was read from, base first
     LineConfig line;
     SimTime tick{50'000};
+    SimTime first_tick{0};  ///< from power-on
+    /// A longer message leaves in pieces of at most so many bytes, of whole lines, a tick each; 0: never.
+    unsigned burst_bytes = 0;
+    unsigned piece_bytes = 0;
+    unsigned queue_codes = 0;    ///< frames that can wait, if the board stores which and not what; else 0
+    std::size_t code_cells = 0;  ///< of Frame::cell
     std::vector<Frame> frames;
     std::vector<Send> boot;
     Schedule schedule;

@@ -27,10 +27,12 @@ class Loader {
   private:
     void load_head(ObjectReader& root);
     void load_line(const Json& node, const std::string& pointer);
+    void load_transmit(const Json& node, const std::string& pointer);
     void load_variables(const Json& node, const std::string& pointer);
     void name_frames(const Json& node, const std::string& pointer);
     void load_frame(const Json& node, const std::string& pointer, Frame& frame);
     void load_frame_lines(const Json& node, const std::string& pointer, Frame& frame);
+    void load_cell(ObjectReader& reader, Frame& frame);
     FrameTemplate compile(const Json& node, const std::string& pointer, bool loop);
     void load_schedule(const Json& node, const std::string& pointer);
     void load_slot(const Json& node, const std::string& pointer);
@@ -45,6 +47,7 @@ class Loader {
     Names names_;
     Names request_names_;
     FrameIndex frame_index_;
+    FrameIndex cells_;
     protocol::FrameStyle style_{};  ///< of frames that do not say theirs
     std::shared_ptr<Profile> profile_ = std::make_shared<Profile>();
     std::shared_ptr<machine::MachineConfig> machine_;
@@ -65,12 +68,23 @@ void Loader::load_head(ObjectReader& root) {
         load_line(*line, root.pointer("line"));
     }
     if (const Json* transmit = root.get("transmit")) {
-        ObjectReader reader(*transmit, root.pointer("transmit"), findings_);
-        double ms = static_cast<double>(profile_->tick.count()) / 1000;
-        reader.number("tick_ms", ms, 0.1, 10000);
-        reader.finish();
-        profile_->tick = machine::from_seconds(ms / 1000);
+        load_transmit(*transmit, root.pointer("transmit"));
     }
+}
+
+void Loader::load_transmit(const Json& node, const std::string& pointer) {
+    ObjectReader reader(node, pointer, findings_);
+    double ms = static_cast<double>(profile_->tick.count()) / 1000;
+    double first_ms = 0;
+    reader.number("tick_ms", ms, 0.1, 10000);
+    reader.number("first_ms", first_ms, 0, 60'000);
+    reader.unsigned_integer("burst_bytes", profile_->burst_bytes, 16, 65536);
+    profile_->piece_bytes = profile_->burst_bytes;
+    reader.unsigned_integer("piece_bytes", profile_->piece_bytes, 16, 65536);
+    reader.unsigned_integer("queue_codes", profile_->queue_codes, 1, 1024);
+    reader.finish();
+    profile_->tick = machine::from_seconds(ms / 1000);
+    profile_->first_tick = machine::from_seconds(first_ms / 1000);
 }
 
 void Loader::load_line(const Json& node, const std::string& pointer) {
@@ -85,6 +99,17 @@ void Loader::load_line(const Json& node, const std::string& pointer) {
     double unfinished_ms = 0;
     reader.number("unfinished_ms", unfinished_ms, 0, 60'000);
     profile_->line.unfinished = machine::from_seconds(unfinished_ms / 1000);
+    bool framed = style_ == protocol::FrameStyle::framed;
+    reader.boolean("framed", framed);
+    style_ = framed ? protocol::FrameStyle::framed : protocol::FrameStyle::bare;
+    profile_->line.framed = framed;
+    reader.unsigned_integer("ring_bytes", profile_->line.ring_bytes, 16, 65536);
+    reader.unsigned_integer("line_bytes", profile_->line.line_bytes, 16,
+                            static_cast<unsigned>(protocol::max_line_bytes));
+    std::string comment;
+    reader.text("comment_from", comment, 1);
+    profile_->line.comment = comment.empty() ? '\0' : comment[0];
+    reader.text("codes", profile_->line.codes, 8);
     reader.finish();
 }
 
@@ -182,6 +207,15 @@ void Loader::load_frame_lines(const Json& node, const std::string& pointer, Fram
     }
 }
 
+void Loader::load_cell(ObjectReader& reader, Frame& frame) {
+    std::string name;
+    reader.text("cell", name, 64);
+    if (!name.empty()) {
+        frame.cell = cells_.emplace(name, cells_.size()).first->second;
+        profile_->code_cells = cells_.size();
+    }
+}
+
 void Loader::load_frame(const Json& node, const std::string& pointer, Frame& frame) {
     frame.style = style_;
     if (!node.is_object()) {
@@ -203,6 +237,7 @@ void Loader::load_frame(const Json& node, const std::string& pointer, Frame& fra
     if (to < channels.size()) {
         frame.to = static_cast<Channel>(to);
     }
+    load_cell(reader, frame);
     const Json* text = reader.get("line");
     const Json* lines = reader.get("lines");
     reader.boolean("chunk", frame.chunk);
@@ -279,6 +314,8 @@ void Loader::load_slot(const Json& node, const std::string& pointer) {
     if (const Json* with = reader.get("only_with")) {
         slot.only_with = compiler.frame(*with, reader.pointer("only_with"));
     }
+    reader.boolean("now", slot.now);
+    reader.boolean("starts_told", slot.starts_told);
     slot.always = when == nullptr && changed == nullptr && !slot.only_with;
     reader.finish();
     profile_->schedule.slots.push_back(std::move(slot));
@@ -295,7 +332,13 @@ void Loader::load_schedule(const Json& node, const std::string& pointer) {
     schedule.first = machine::from_seconds(first_ms / 1000);
     if (const Json* frozen = reader.get("frozen_while")) {
         RuleCompiler compiler(findings_, names_, frame_index_, *machine_);
-        schedule.frozen_while = compiler.conditions(*frozen, reader.pointer("frozen_while"));
+        const std::string at = reader.pointer("frozen_while");
+        const std::size_t ways = frozen->is_array() ? frozen->size() : 1;
+        for (std::size_t i = 0; i < ways; ++i) {
+            schedule.frozen_while.push_back(
+                frozen->is_array() ? compiler.conditions((*frozen)[i], at + "/" + std::to_string(i))
+                                   : compiler.conditions(*frozen, at));
+        }
     }
     if (const Json* slots = reader.get("slots")) {
         if (!slots->is_array() || slots->size() > 256) {

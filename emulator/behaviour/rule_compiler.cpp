@@ -321,6 +321,7 @@ Rule RuleCompiler::rule(const Json& node, const std::string& pointer) {
         out.send = sends(*frames, reader.pointer("send"));
     }
     reader.boolean("at_once", out.at_once);
+    reader.boolean("until_done", out.until_done);
     reader.finish();
     return out;
 }

@@ -69,6 +69,9 @@ struct Rule {
     std::vector<ActionCall> actions;
     std::vector<Send> send;
     bool at_once = false;  ///< of the USB host: carried out as it comes in, ahead of what waits
+    /// Of the main line: nothing else is taken up and nothing leaves until the moves and waits it began are
+    /// over; then what it sends goes.
+    bool until_done = false;
 };
 
 }  // namespace fauxboard::behaviour

@@ -46,6 +46,7 @@ Board::Board(std::shared_ptr<const behaviour::Profile> profile, machine::Service
       wheel_(*profile_),
       inbox_(inbox_bytes, profile_->line.queue_lines),
       outbox_(outbox_bytes, outbox_messages),
+      codes_(profile_->queue_codes, profile_->code_cells),
       host_inbox_(host_inbox_bytes, host_inbox_lines),
       scratch_(scratch_bytes) {
     port(Channel::main).connected = true;
@@ -75,6 +76,9 @@ void Board::power_on(SimTime now) {
     last_tick_ = now - profile_->tick;
     inbox_.clear();
     outbox_.clear();
+    codes_.clear();
+    ring_.reset();
+    held_ = {};
     network_ = NetworkOutbox();
     host_inbox_.clear();
     unfinished_due_ = never;
@@ -97,6 +101,7 @@ void Board::power_on(SimTime now) {
     behaviour::load_fields(*machine_, {});
     machine_->events.clear();  // what setting up raised is nobody's business
     wheel_.power_on(now);
+    wheel_.take_as_told(*machine_);
     for (const Send& entry : profile_->boot) {
         send(entry, scope());
     }
@@ -121,11 +126,26 @@ void Board::reload(std::shared_ptr<const behaviour::Profile> profile) {
     profile_ = std::move(profile);
     variables_ = std::move(variables);
     wheel_.reload(*profile_, time_);
+    codes_ = CodeQueue(profile_->queue_codes, profile_->code_cells);
+    held_ = {};
     told_.clear();
 }
 
 void Board::receive(SimTime now, std::string_view bytes, Channel channel) {
     catch_up(now);
+    if (channel == Channel::main && profile_->line.small()) {
+        std::optional<std::uint64_t> tick;
+        if (options_.pacing) {
+            tick = static_cast<std::uint64_t>((time_ - power_on_) / profile_->tick);
+        }
+        const std::size_t lost = ring_.feed(
+            tick, bytes, profile_->line, [this](std::string_view line) { take_line(Channel::main, line); });
+        counters_.bytes_lost += lost;
+        if (lost != 0) {
+            notice(Level::warning, "bytes lost: more came at once than the board's receiving ring holds");
+        }
+        return;
+    }
     port(channel).splitter.feed(bytes, [this, channel](std::string_view line) { take_line(channel, line); });
     if (channel == Channel::main && profile_->line.unfinished > SimTime{0} && !bytes.empty()) {
         unfinished_due_ = port(channel).splitter.in_line() ? time_ + profile_->line.unfinished : never;
@@ -140,7 +160,8 @@ std::uint64_t Board::lines_too_long() const {
 
 std::uint64_t Board::nul_bytes() const {
     return std::accumulate(ports_.begin(), ports_.end(), std::uint64_t{0},
-                           [](std::uint64_t sum, const Port& each) { return sum + each.splitter.nuls(); });
+                           [](std::uint64_t sum, const Port& each) { return sum + each.splitter.nuls(); }) +
+           ring_.nuls();
 }
 
 bool Board::quiet() const {
@@ -163,10 +184,12 @@ void Board::take_line(Channel channel, std::string_view line) {
     std::string_view body;
     const bool bad = !unframe(line, body);
     // Words are no commands to a board of frames, and take no tick.
-    const bool ticks = profile_->line.framing != behaviour::Framing::frames || is_code(body);
+    const bool ticks = profile_->line.framing != behaviour::Framing::frames ||
+                       !profile_->line.codes.empty() || is_code(body);
     Verdict verdict = Verdict::accepted;
     const bool paced = options_.pacing && channel == Channel::main;
-    const bool waits = paced ? ticks : port(channel).output.size() >= output_limit;
+    const bool held = held_.rule != nullptr && channel == Channel::main;
+    const bool waits = held || (paced ? ticks : port(channel).output.size() >= output_limit);
     if (machine_->hung()) {
         ++counters_.requests_lost;
         verdict = Verdict::queue_full;
@@ -188,6 +211,10 @@ void Board::take_line(Channel channel, std::string_view line) {
 
 /// Takes a request out of the frame that the main line has. False when its checksum is wrong.
 bool Board::unframe(std::string_view line, std::string_view& body) const {
+    if (!profile_->line.codes.empty()) {
+        body = line;  // it looks for nothing but its codes
+        return true;
+    }
     if (profile_->line.framing != behaviour::Framing::frames) {
         body = protocol::unframe_host_line(line).body;
         return true;
@@ -198,6 +225,13 @@ bool Board::unframe(std::string_view line, std::string_view& body) const {
 }
 
 void Board::execute(Channel channel, std::string_view body) {
+    if (channel == Channel::main && !profile_->line.codes.empty()) {
+        const std::size_t code = body.find_first_of(profile_->line.codes);
+        if (code == std::string_view::npos) {
+            return;  // nothing in it that this board looks for
+        }
+        body.remove_prefix(code);
+    }
     protocol::Command command;
     if (!protocol::parse_command(body, command)) {
         return;  // a frame around nothing
@@ -247,8 +281,28 @@ void Board::run_rule(const Rule& rule, const Scope& here) {
         power_on(time_);
         return;
     }
+    if (rule.until_done && here.command != nullptr && machine_->at_work()) {
+        const std::string_view code = here.command->word;
+        held_ = {&rule, std::string(code) + std::string(here.command->text)};
+        return;
+    }
     for (const Send& entry : rule.send) {
         send(entry, here);
+    }
+}
+
+/// The request that held up all others may be over: what its rule sends goes now.
+void Board::end_held() {
+    if (held_.rule == nullptr || machine_->at_work()) {
+        return;
+    }
+    const Held over = std::exchange(held_, {});
+    protocol::Command command;
+    if (protocol::parse_command(over.body, command)) {
+        const Scope here = scope(&command);
+        for (const Send& entry : over.rule->send) {
+            send(entry, here);
+        }
     }
 }
 
@@ -262,13 +316,14 @@ void Board::settle() {
         power_on(time_);
         return;
     }
+    end_held();
     if (const int rounds = machine_->loop.take_lost_rounds(); rounds > 0) {
         wheel_.lose_rounds(rounds);
     }
     if (const SimTime stall = machine_->loop.take_stall(); stall > SimTime{0}) {
         wheel_.stall(stall);
     }
-    if (wheel_.frozen() && !behaviour::all_hold(profile_->schedule.frozen_while, scope())) {
+    if (wheel_.frozen() && !profile_->schedule.frozen(scope())) {
         wheel_.thaw(time_);
     }
 }
@@ -292,15 +347,19 @@ void Board::run_events() {
 }
 
 SimTime Board::next_tick() const {
-    if (inbox_.empty() && outbox_.empty()) {
+    if ((inbox_.empty() && outbox_.empty() && codes_.empty()) || held_.rule != nullptr) {
         return never;
     }
     if (!options_.pacing) {
         return time_;
     }
     const SimTime tick = profile_->tick;
-    const SimTime::rep passed = (time_ - power_on_ + tick - SimTime{1}) / tick;
-    return std::max(power_on_ + passed * tick, last_tick_ + tick);
+    const SimTime first = power_on_ + profile_->first_tick;
+    if (time_ <= first) {
+        return std::max(first, last_tick_ + tick);
+    }
+    const SimTime::rep passed = (time_ - first + tick - SimTime{1}) / tick;
+    return std::max(first + passed * tick, last_tick_ + tick);
 }
 
 SimTime Board::next_due() const {
@@ -329,6 +388,7 @@ void Board::run_slots(SimTime end) {
         if (slot != nullptr) {
             Send entry;
             entry.frame = *slot->frame;
+            entry.now = slot->now;
             send(entry, scope());
         }
     }
@@ -339,8 +399,10 @@ void Board::run_tick() {
     if (!outbox_.empty()) {
         emit(outbox_.front());
         outbox_.pop();
+    } else if (!codes_.empty()) {
+        emit_code(codes_.take());
     }
-    if (!inbox_.empty()) {
+    if (!inbox_.empty() && held_.rule == nullptr) {
         std::array<char, protocol::max_line_bytes> line;
         const std::string_view front = inbox_.front();
         const std::size_t size = front.copy(line.data(), line.size());

@@ -12,9 +12,11 @@
 
 #include "emulator/behaviour/notice.h"
 #include "emulator/behaviour/profile.h"
+#include "emulator/board/code_queue.h"
 #include "emulator/board/message_queue.h"
 #include "emulator/board/network_outbox.h"
 #include "emulator/board/output_buffer.h"
+#include "emulator/board/ring_intake.h"
 #include "emulator/board/wheel.h"
 #include "emulator/machine/machine.h"
 #include "emulator/machine/sim_time.h"
@@ -79,6 +81,7 @@ struct Counters {
     std::uint64_t requests_lost = 0;  ///< more waiting than the board has room for; or it hung
     std::uint64_t messages_lost = 0;  ///< same, outwards
     std::uint64_t lines_cut = 0;      ///< frames longer than a line may be
+    std::uint64_t bytes_lost = 0;     ///< received while the board's ring was full
 };
 
 /// One virtual control board: bytes in, bytes out, time in. No clock, no I/O, no threads; many boards may
@@ -182,6 +185,7 @@ class Board final : private behaviour::NoticeSink {
     void put_datagrams(std::span<char> message, bool block);
     void take_request(std::string_view bytes);
     void run_rule(const behaviour::Rule& rule, const behaviour::Scope& scope);
+    void end_held();
     bool run_rules(const std::vector<behaviour::Rule>& rules, const protocol::Command* command);
     void run_events();
     void settle();
@@ -195,7 +199,11 @@ class Board final : private behaviour::NoticeSink {
     void compose(const behaviour::Frame& frame, const behaviour::Scope& scope, Draft& draft);
     void compose_line(const behaviour::Frame& frame, const behaviour::FrameTemplate& text,
                       const behaviour::Scope& scope, std::size_t end, Draft& draft);
+    void queue(const behaviour::Send& send, const behaviour::Scope& scope);
+    void said(std::size_t frame, const behaviour::Scope& scope);
+    bool put_in_queue(std::string_view message);
     void emit(std::string_view message);
+    void emit_code(std::size_t frame);
     void tell_sent(Channel channel, std::string_view message);
     bool quiet() const;
     void step(SimTime due);
@@ -214,8 +222,16 @@ class Board final : private behaviour::NoticeSink {
     Wheel wheel_;
     std::array<Port, behaviour::channel_count> ports_;
     NetworkOutbox network_;
-    MessageQueue inbox_;             ///< of the main line
-    MessageQueue outbox_;            ///< same
+    MessageQueue inbox_;   ///< of the main line
+    MessageQueue outbox_;  ///< same
+    CodeQueue codes_;      ///< same, of a board that stores no messages
+    RingIntake ring_;      ///< of the main line, if the board's is small
+    /// A request of the main line that is still being carried out, and the rule it is carried out by.
+    struct Held {
+        const behaviour::Rule* rule = nullptr;
+        std::string body;
+    };
+    Held held_;
     MessageQueue host_inbox_;        ///< of the USB side
     Channel asker_ = Channel::main;  ///< whom a frame goes to that does not say it itself
     std::vector<char> scratch_;

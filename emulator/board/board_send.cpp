@@ -29,6 +29,10 @@ void Board::send(const Send& entry, const Scope& here) {
     if (to == Channel::network ? !network_.asking() : !port(to).connected) {
         return;
     }
+    if (profile_->queue_codes != 0 && to == Channel::main && !entry.now && options_.pacing) {
+        queue(entry, here);
+        return;
+    }
     for (unsigned i = 0; i < entry.times; ++i) {
         const bool at_once = to != Channel::network && (entry.now || !options_.pacing || to != Channel::main);
         const bool short_one = frame.lines.size() == 1 && !frame.lines[0].for_each_entry;
@@ -36,13 +40,7 @@ void Board::send(const Send& entry, const Scope& here) {
         Draft draft{at_once ? output.room(short_one ? line_bytes : scratch_bytes)
                             : std::span<char>(scratch_)};
         compose(frame, here, draft);
-        wheel_.sent(entry.frame, *machine_);
-        if (!frame.then.empty()) {
-            ActionContext context{*machine_, variables_, *this};
-            for (const behaviour::ActionCall& call : frame.then) {
-                behaviour::run_action(call, here, profile_->variables, context);
-            }
-        }
+        said(entry.frame, here);
         const std::string_view message(draft.room.data(), draft.size);
         if (to == Channel::network) {
             counters_.lines_sent += draft.lines;
@@ -57,11 +55,70 @@ void Board::send(const Send& entry, const Scope& here) {
                 machine_->host_side().acknowledge();
             }
             tell_sent(to, message);
-        } else if (!outbox_.push(message)) {
+        } else if (!put_in_queue(message)) {
             ++counters_.messages_lost;
             notice(Level::warning, "message " + frame.name + " lost: the board's transmit queue is full");
         }
     }
+}
+
+/// Whole, or in pieces that the other end can take. False when there is no room for all of it.
+bool Board::put_in_queue(std::string_view message) {
+    if (profile_->burst_bytes == 0 || message.size() <= profile_->burst_bytes) {
+        return outbox_.push(message);
+    }
+    while (!message.empty()) {
+        std::size_t size = std::min<std::size_t>(profile_->piece_bytes, message.size());
+        if (size < message.size()) {
+            const std::size_t end = message.rfind('\n', size - 1);
+            size = (end == std::string_view::npos ? message.find('\n') : end) + 1;
+        }
+        if (!outbox_.push(message.substr(0, size))) {
+            return false;
+        }
+        message.remove_prefix(size);
+    }
+    return true;
+}
+
+/// What the board remembers of a frame that it has put together.
+void Board::said(std::size_t frame, const Scope& here) {
+    wheel_.sent(frame, *machine_);
+    if (profile_->frames[frame].then.empty()) {
+        return;
+    }
+    ActionContext context{*machine_, variables_, *this};
+    for (const behaviour::ActionCall& call : profile_->frames[frame].then) {
+        behaviour::run_action(call, here, profile_->variables, context);
+    }
+}
+
+/// Of a board that stores which frames are to go: what they say is put together when they leave, but for what
+/// was given with the order, of which the last is kept.
+void Board::queue(const Send& entry, const Scope& here) {
+    const Frame& frame = profile_->frames[entry.frame];
+    for (unsigned i = 0; i < entry.times; ++i) {
+        if (!codes_.push(entry.frame)) {
+            ++counters_.messages_lost;
+            notice(Level::warning, "message " + frame.name + " lost: the board's transmit queue is full");
+        } else if (frame.cell) {
+            Draft draft{std::span<char>(scratch_)};
+            compose(frame, here, draft);
+            codes_.keep(*frame.cell, {draft.room.data(), draft.size});
+        }
+    }
+}
+
+void Board::emit_code(std::size_t id) {
+    const Frame& frame = profile_->frames[id];
+    said(id, scope());
+    if (frame.cell) {
+        emit(codes_.kept(*frame.cell));
+        return;
+    }
+    Draft draft{std::span<char>(scratch_)};
+    compose(frame, scope(), draft);
+    emit({draft.room.data(), draft.size});
 }
 
 /// Adds a line to the draft, of which it may use the room up to `end`.

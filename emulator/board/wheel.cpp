@@ -49,6 +49,14 @@ void Wheel::power_on(SimTime now) {
     next_ = slots_.empty() ? never : now + profile_->schedule.first;
 }
 
+void Wheel::take_as_told(const machine::Machine& machine) {
+    for (const Slot& slot : profile_->schedule.slots) {
+        if (slot.frame && slot.starts_told) {
+            remember(*slot.frame, machine);
+        }
+    }
+}
+
 bool Wheel::changed(const std::vector<std::size_t>& which, std::size_t frame,
                     const machine::Machine& machine) const {
     const auto& fields = profile_->frames[frame].watched;
@@ -82,7 +90,7 @@ bool Wheel::conditions_hold(std::size_t index, const Scope& scope) const {
 
 const Slot* Wheel::turn(const Scope& scope) {
     const behaviour::Schedule& schedule = profile_->schedule;
-    if (!schedule.frozen_while.empty() && behaviour::all_hold(schedule.frozen_while, scope)) {
+    if (schedule.frozen(scope)) {
         frozen_ = true;
         next_ = never;
         return nullptr;

@@ -45,6 +45,9 @@ class Wheel {
         }
     }
 
+    /// What the machine is like counts as told, in the slots that start so.
+    void take_as_told(const machine::Machine& machine);
+
     /// Stands still for whole rounds, or for some time.
     void lose_rounds(int rounds);
     void stall(SimTime time);

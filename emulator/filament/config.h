@@ -37,6 +37,8 @@ struct ProcedureStep {
     double seconds = -1;               ///< fixed duration; < 0: from distance and feed
     int rounds = 0;                    ///< lose_rounds
     machine::EventId event = nullptr;  ///< raise
+    bool together = false;             ///< home: all axes at the same time
+    double bump_s = -1;  ///< home: second, slow touch of the end stops; < 0: as for every axis of the machine
     bool reference = false;  ///< probe: what it touches here is what heights count from, as when homing Z
 };
 using Procedure = std::vector<ProcedureStep>;
@@ -54,6 +56,8 @@ struct MotionConfig {
     std::array<std::array<double, 3>, 3> bed_mesh_mm{};
     double probe_trigger_mm = 2.5;  ///< logical Z at which the probe touches the nominal plane
     std::array<double, 2> probe_offset_mm{-38.2, 0};
+    /// The motors switch themselves off so long after the last move, unless a job is under way; 0: never.
+    double idle_off_s = 0;
     std::map<std::string, Procedure, std::less<>> procedures;
 };
 
@@ -71,6 +75,25 @@ struct JobConfig {
     /// How long a finished job is shown (PS:4) before the board is idle again. No request of the screens says
     /// that the page was left, and the A30's opens its file list only while idle.
     double finished_s = 10;
+    /// A pause throws the planned moves away; else they are finished first.
+    bool pause_at_once = false;
+    /// A job that was cut off is paused at the next start, as if the user had paused it.
+    bool cut_off_is_paused = false;
+    /// A job that is taken up, cut off or paused, homes X and Y before it heats, and a pause counts as cut
+    /// off.
+    bool resume_homes_first = false;
+};
+
+/// The fan of the control board.
+struct BoardFanConfig {
+    int percent = 50;        ///< fixed speed; of a fan that runs by itself, its speed before it does
+    bool automatic = false;  ///< it runs by itself, and M106 P2 holds until that changes
+    int idle_percent = 71;
+    int busy_percent = 100;  ///< while printing, or with a heater's target beyond these
+    double nozzle_c = 50;
+    double bed_c = 35;
+    double starts_s = 0;  ///< from power-on
+    int least_pwm = 0;    ///< of the part fan: a smaller value, unless 0, counts as this
 };
 
 struct HostConfig {
@@ -86,7 +109,7 @@ struct Config : machine::MachineConfig {
     FilamentConfig filament;
     JobConfig job;
     HostConfig host;
-    int board_fan_percent = 50;
+    BoardFanConfig board_fan;
     double manual_level_start_mm = 8.0;
 };
 

@@ -6,6 +6,7 @@ namespace fauxboard::filament {
 
 /// What may happen to a printer that melts filament, beside what may happen to every machine.
 inline constexpr auto own_events = std::to_array<machine::EventInfo>({
+    {"job.ended", "job.end was done, whether or not there was a job"},
     {"motion.axis_homed", "homing of single axes has ended"},
     {"motion.bed_probed", "the nine points of the bed have been probed"},
     {"motion.probed", "the probe has measured one point"},

@@ -321,18 +321,8 @@ double Motion::duration_s(const Step& step) const {
     if (step.what.seconds >= 0) {
         return step.what.seconds;
     }
-    double seconds = 0;
     if (step.what.kind == Kind::home) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            if (step.what.values[i] && dead_endstop(i)) {
-                return seconds + config_.volume_mm[i] / config_.homing_feed_mm_s;
-            }
-            if (step.what.values[i]) {
-                seconds +=
-                    std::abs(executed_[i] + offset_[i]) / config_.homing_feed_mm_s + config_.homing_bump_s;
-            }
-        }
-        return seconds;
+        return homing_s(step.what);
     }
     double square = 0;
     double feed = std::max(shown_feed_, 0.01);
@@ -349,6 +339,22 @@ double Motion::duration_s(const Step& step) const {
     const double extruded = std::abs(step.target[3] - executed_[3]);
     const double distance = square > 0 ? std::sqrt(square) : extruded;
     return trapezoid_s(distance, feed, std::max(settings_.acceleration_mm_s2, 1.0));
+}
+
+/// Time to run into the end stops; up to the one that is dead, if one is.
+double Motion::homing_s(const ProcedureStep& step) const {
+    const double bump_s = step.bump_s >= 0 ? step.bump_s : config_.homing_bump_s;
+    double seconds = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (step.values[i] && dead_endstop(i)) {
+            return seconds + config_.volume_mm[i] / config_.homing_feed_mm_s;
+        }
+        if (step.values[i]) {
+            const double way_s = std::abs(executed_[i] + offset_[i]) / config_.homing_feed_mm_s + bump_s;
+            seconds = step.together ? std::max(seconds, way_s) : seconds + way_s;
+        }
+    }
+    return seconds;
 }
 
 /// Bilinear in the 3 x 3 mesh over the build area.

@@ -79,6 +79,10 @@ class Motion {
     /// Filament that the extruder was turned for since the machine was made, mm.
     double extruded_mm() const { return extruded_; }
     bool homed() const { return (homed_ & 7U) == 7U; }
+    /// The axes are being run into their end stops.
+    bool homing() const {
+        return step_end_ != never && count_ != 0 && ring_[head_].what.kind == ProcedureStep::Kind::home;
+    }
     bool busy() const { return count_ != 0 || !planner_.empty(); }
     /// End of everything asked for, mm.
     const AxisValues& planned() const { return planned_; }
@@ -116,6 +120,7 @@ class Motion {
     bool fails(const Step& step, EventQueue& events);
     bool dead_endstop(std::size_t axis) const { return faults_.dead_motors || faults_.dead_endstops[axis]; }
     double duration_s(const Step& step) const;
+    double homing_s(const ProcedureStep& step) const;
     double bed_height_mm(double x, double y) const;
 
     const MotionConfig& config_;

@@ -17,7 +17,7 @@ Printer::Printer(std::shared_ptr<const Config> config, const machine::Services& 
       gcode{motion, moves, thermal, wait, mixer, fans, settings, modal, job, events, *this},
       runner(gcode, storage, config_->job),
       host(gcode, transfer, config_->host),
-      recovery(gcode, storage, runner) {
+      recovery(gcode, storage, runner, config_->job) {
     recovery.load(services.job_place);
 }
 
@@ -39,6 +39,12 @@ void Printer::power_on_parts(SimTime now) {
     screen = ScreenSide{};
     steppers = Steppers{};
     tuning = false;
+    motors_rest_ = never;
+    fan_order_.reset();
+    power_on_ = now;
+    if (config_->job.cut_off_is_paused) {
+        recovery.stand_paused();
+    }
 }
 
 void Printer::run_parts(SimTime now) {
@@ -56,11 +62,13 @@ void Printer::run_parts(SimTime now) {
     if (was_moving) {
         emit_after_motion();
     }
+    rest_motors(now);
 }
 
 SimTime Printer::next_of_parts() const {
     return std::min({motion.next_event(), feeder.next_event(), wait.next_event(), next_of_job(),
-                     host.next_event(now()), recovery.next_event(now()), thermal.next_alarm_check()});
+                     host.next_event(now()), recovery.next_event(now()), thermal.next_alarm_check(),
+                     motors_rest_});
 }
 
 SimTime Printer::next_of_job() const {
@@ -93,7 +101,11 @@ void Printer::seek_job(double byte) {
 }
 
 void Printer::job_pauses(bool park) {
-    runner.pause();
+    if (config_->job.pause_at_once && park) {
+        pause_now();
+    } else {
+        runner.pause();
+    }
     if (park) {
         run("park");
     }
@@ -108,9 +120,36 @@ void Printer::job_stops() {
     thermal.set_target(HeaterId::bed, 0);
 }
 
+/// What is planned is thrown away: the file goes on where the move under way began.
+void Printer::pause_now() {
+    recovery.keep(now());
+    const std::uint64_t byte = runner.executed_byte();
+    motion.abort();
+    runner.pause();
+    job.set_byte(static_cast<double>(byte));
+    job.pause(now());
+    events.raise(event("job.paused"));
+}
+
+bool Printer::resume_job() {
+    return config_->job.resume_homes_first ? recovery.begin() : Machine::resume_job();
+}
+
 void Printer::job_ends() {
-    runner.finished(now());
+    config_->ends_idle ? runner.stop() : runner.finished(now());
     recovery.drop();
+}
+
+void Printer::end_job() {
+    if (job.active()) {
+        job.end(now());
+    }
+    runner.stop();
+    recovery.abort();
+    recovery.drop();
+    motion.abort();
+    wait.cancel(events);
+    events.raise(event("job.ended"));
 }
 
 void Printer::all_off(bool had_job) {

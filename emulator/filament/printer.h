@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string_view>
 
 #include "emulator/filament/config.h"
@@ -40,6 +41,13 @@ class Printer final : public machine::Machine {
     void feed_once();
     void set_filament(bool present);
     void seek_job(double byte) override;
+    bool resume_job() override;
+    bool at_work() const override { return motion.busy() || wait.active(); }
+    /// The job, whatever its state, has come to its end; the profile sees to heaters and motions.
+    void end_job();
+    /// The fan of the control board, percent; what M106 P2 sets holds until it changes by itself.
+    int board_fan_percent() const;
+    void set_board_fan(int percent) { fan_order_ = FanOrder{percent, own_fan_percent()}; }
     /// The controller of a heater is tuned at `c`, until stop_tuning() or a reset: it is hot meanwhile.
     void start_tuning(HeaterId heater, double c);
     void stop_tuning();
@@ -90,10 +98,20 @@ class Printer final : public machine::Machine {
 
     SimTime next_of_job() const;
     void emit_after_motion();
+    void pause_now();
+    void rest_motors(SimTime now);
+    int own_fan_percent() const;
     void raise_alarms();
     void follow_filament();
     bool too_cold_to_extrude() const;
 
+    struct FanOrder {
+        int percent = 0;
+        int instead_of = 0;  ///< what the fan did by itself then
+    };
+    std::optional<FanOrder> fan_order_;
+    SimTime motors_rest_ = never;  ///< when the motors switch themselves off
+    SimTime power_on_{0};
     double chilled_c_ = 0;
     HeaterId tuned_ = HeaterId::nozzle;
 };

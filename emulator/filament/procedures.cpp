@@ -6,6 +6,8 @@ namespace fauxboard::filament {
 namespace {
 
 constexpr unsigned all_axes = 7;
+/// Homes a machine that knows where it is, where that differs.
+constexpr std::string_view home_known = "home_known";
 
 }  // namespace
 
@@ -19,7 +21,8 @@ bool Procedures::run(std::string_view procedure, SimTime now) {
 
 bool Procedures::home(unsigned mask, SimTime now) {
     if (mask == 0 || mask == all_axes) {
-        return run("home", now);
+        const bool known = motion_.homed() && config_.procedures.contains(home_known);
+        return run(known ? home_known : "home", now);
     }
     constexpr std::array<std::string_view, 3> names{"home_x", "home_y", "home_z"};
     for (std::size_t i = 0; i < names.size(); ++i) {

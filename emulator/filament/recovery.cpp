@@ -1,5 +1,7 @@
 #include "emulator/filament/recovery.h"
 
+#include <utility>
+
 #include "emulator/filament/event_rows.h"
 #include "emulator/filament/heating_wait.h"
 #include "emulator/filament/job_runner.h"
@@ -71,14 +73,29 @@ void Recovery::keep(SimTime now) {
     }
 }
 
-bool Recovery::begin() {
+bool Recovery::file_there() const {
+    const Volume* volume = place_ ? storage_.volume(place_->volume) : nullptr;
+    std::uint64_t bytes = 0;
+    return volume != nullptr && volume->look(place_->path, bytes) == Volume::Kind::file &&
+           bytes == place_->bytes;
+}
+
+void Recovery::stand_paused() {
     if (saved() == nullptr) {
+        return;
+    }
+    on_.job.select(place_->volume, place_->path, place_->bytes);
+    on_.job.stand_paused(place_->byte, place_->elapsed);
+    on_.job.layer = place_->layer;
+    on_.job.layers = place_->layers;
+}
+
+bool Recovery::begin() {
+    const bool paused = config_.resume_homes_first && on_.job.status() == JobStatus::paused;
+    if (!place_ || (on_.job.active() && !paused)) {
         return false;
     }
-    const Volume* volume = storage_.volume(place_->volume);
-    std::uint64_t bytes = 0;
-    if (volume == nullptr || volume->look(place_->path, bytes) != Volume::Kind::file ||
-        bytes != place_->bytes) {
+    if (!file_there()) {
         on_.events.raise(event("file.missing"));
         return false;
     }
@@ -86,8 +103,28 @@ bool Recovery::begin() {
     on_.job.recover(place_->byte, place_->elapsed);
     on_.job.layer = place_->layer;
     on_.job.layers = place_->layers;
-    step_ = Step::bed;
+    step_ = after(Step::none);
     return true;
+}
+
+/// The order of the steps: heat, home, go there and print; or home, heat, go there and print.
+Recovery::Step Recovery::after(Step step) const {
+    const bool homes_first = config_.resume_homes_first;
+    switch (step) {
+        case Step::none:
+            return homes_first ? Step::home : Step::bed;
+        case Step::bed:
+            return Step::nozzle;
+        case Step::nozzle:
+            return homes_first ? Step::travel : Step::home;
+        case Step::home:
+            return homes_first ? Step::bed : Step::travel;
+        case Step::travel:
+            return Step::print;
+        case Step::print:
+            break;
+    }
+    return Step::none;
 }
 
 SimTime Recovery::next_step(SimTime now) const {
@@ -130,27 +167,22 @@ void Recovery::print(SimTime now) {
 
 void Recovery::advance(SimTime now) {
     while (step_ != Step::none && !on_.wait.active() && !on_.motion.busy()) {
-        switch (step_) {
+        switch (std::exchange(step_, after(step_))) {
             case Step::none:
                 break;
             case Step::bed:
-                step_ = Step::nozzle;
                 heat(HeaterId::bed, place_->bed_c, now);
                 break;
             case Step::nozzle:
-                step_ = Step::home;
                 heat(HeaterId::nozzle, place_->nozzle_c, now);
                 break;
             case Step::home:
-                step_ = Step::travel;
                 on_.moves.home(x_and_y, now);
                 break;
             case Step::travel:
-                step_ = Step::print;
                 travel(now);
                 break;
             case Step::print:
-                step_ = Step::none;
                 print(now);
                 break;
         }

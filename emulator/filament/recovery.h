@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "emulator/filament/config.h"
 #include "emulator/filament/job_place.h"
 #include "emulator/filament/names.h"
 #include "emulator/filament/thermal.h"
@@ -17,8 +18,8 @@ class JobRunner;
 /// Which of these steps a real board takes, and in which order, is not recorded.
 class Recovery {
   public:
-    Recovery(GcodeMachine& on, const Storage& storage, JobRunner& runner)
-        : on_(on), storage_(storage), runner_(runner) {}
+    Recovery(GcodeMachine& on, const Storage& storage, JobRunner& runner, const JobConfig& config)
+        : on_(on), storage_(storage), runner_(runner), config_(config) {}
 
     /// Looks for a job that was cut off before this machine was made.
     void load(machine::JobPlaceStore* store);
@@ -31,6 +32,10 @@ class Recovery {
     bool begin();
     /// Drops it.
     void drop();
+    /// It stands paused, as if the user had paused it.
+    void stand_paused();
+    /// The file of what goes on is there, and has its size.
+    bool file_there() const;
     /// The job was stopped while it was being taken up.
     void abort() { step_ = Step::none; }
 
@@ -44,6 +49,7 @@ class Recovery {
     enum class Step : std::uint8_t { none, bed, nozzle, home, travel, print };
 
     SimTime next_step(SimTime now) const;
+    Step after(Step step) const;
     void heat(HeaterId heater, double c, SimTime now);
     void travel(SimTime now);
     void print(SimTime now);
@@ -51,6 +57,7 @@ class Recovery {
     GcodeMachine& on_;
     const Storage& storage_;
     JobRunner& runner_;
+    const JobConfig& config_;
     machine::JobPlaceStore* store_ = nullptr;
     std::optional<JobPlace> place_;
     std::string kept_;        ///< the place as bytes; the buffer is reused

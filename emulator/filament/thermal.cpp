@@ -82,7 +82,7 @@ SimTime Thermal::next_measurement() const {
 
 bool Thermal::set_target(HeaterId id, double c) {
     Heater& h = heater(id);
-    h.target_c = c > 0 ? std::min(c, h.config->max_target_c) : 0.0;
+    h.target_c = c > 0 ? h.config->clamps ? std::min(c, h.config->max_target_c) : c : 0.0;
     plan_alarm_check();
     return h.target_c != c;
 }
@@ -230,7 +230,11 @@ void Thermal::read_sensor(Heater& h) {
     const PlantConfig& plant = h.config->plant;
     const double offset_c =
         since_power_on_ == config_->warm_up_measurements ? plant.first_reading_offset_c : 0.0;
-    print(h.channel, quantise(sensed_c(h) + offset_c, plant.counts_per_c));
+    const double noise_c =
+        h.commanded && plant.noise_c > 0
+            ? plant.noise_c * measurement_noise(seed_, static_cast<unsigned>(h.channel), index_)
+            : 0.0;
+    print(h.channel, quantise(sensed_c(h) + offset_c + noise_c, plant.counts_per_c));
 }
 
 void Thermal::control(Heater& h) {
@@ -246,7 +250,9 @@ void Thermal::control(Heater& h) {
 void Thermal::read_input(ThermalChannel channel, const SensorlessInputConfig& input) {
     double c = cross_talk_c(input, temperature_c(HeaterId::nozzle));
     if (heater(HeaterId::nozzle).commanded) {
-        c += input.noise_c * measurement_noise(seed_, static_cast<unsigned>(channel), index_);
+        const double stretch = std::max(1.0, std::floor(input.noise_wander_s / to_seconds(config_->period)));
+        c += input.noise_c * wandering_noise(seed_, static_cast<unsigned>(channel), index_,
+                                             static_cast<std::uint64_t>(stretch));
     }
     print(channel, quantise(c, input.counts_per_c));
 }

@@ -15,6 +15,7 @@ SensorlessInputConfig a30t_t1() {
                    {132, 121.5}, {140, 125.4},   {147, 129.6},   {155, 131.4}, {164, 133.9}, {175, 136.6},
                    {188, 139.3}, {199, 140.1},   {201.1, 140.7}},
         .noise_c = 0.13,
+        .noise_wander_s = 60,
         .counts_per_c = 7};
 }
 
@@ -26,6 +27,7 @@ SensorlessInputConfig a30t_t2() {
                        {132, 113.4},   {140, 114.9},    {147, 116.4},    {155, 117.9},    {164, 119.0},
                        {175, 119.9},   {188, 120.8},    {199, 121.0},    {201.1, 121.2}},
             .noise_c = 0.10,
+            .noise_wander_s = 60,
             .counts_per_c = 7};
 }
 
@@ -52,6 +54,14 @@ double measurement_noise(std::uint64_t seed, unsigned channel, std::uint64_t ind
     const std::uint64_t sum =
         (hash & 0xffff) + (hash >> 16 & 0xffff) + (hash >> 32 & 0xffff) + (hash >> 48 & 0xffff);
     return (static_cast<double>(sum) - 2 * 65535.0) * (1.7320508075688772 / 65536.0);
+}
+
+double wandering_noise(std::uint64_t seed, unsigned channel, std::uint64_t index, std::uint64_t stretch) {
+    const double here = measurement_noise(seed, channel, index / stretch);
+    const std::uint64_t on_the_way = index % stretch;
+    if (on_the_way == 0) return here;
+    const double next = measurement_noise(seed, channel, index / stretch + 1);
+    return here + (next - here) * static_cast<double>(on_the_way) / static_cast<double>(stretch);
 }
 
 }  // namespace fauxboard::filament

@@ -14,4 +14,7 @@ double cross_talk_c(const SensorlessInputConfig& config, double source_c);
 /// its arguments, so that the value of a measurement does not depend on how it was reached.
 double measurement_noise(std::uint64_t seed, unsigned channel, std::uint64_t index);
 
+/// The same, going in straight lines from a value of its own to the next in `stretch` (>= 1) measurements.
+double wandering_noise(std::uint64_t seed, unsigned channel, std::uint64_t index, std::uint64_t stretch);
+
 }  // namespace fauxboard::filament

@@ -72,8 +72,10 @@ ThermalPlant::Step ThermalPlant::discretise(double seconds, bool commanded) cons
     const double a = config_.exchange_a_per_s;
     const double b = config_.exchange_b_per_s;
     const double s = 1.0 / config_.sensor_lag_s;
-    const Matrix rates{
-        {{-a - loss, a, 0, config_.heating_k_per_s}, {b, -b, 0, 0}, {s, 0, -s, 0}, {0, 0, 0, 0}}};
+    const Matrix rates{{{-a - loss, a, 0, config_.heating_k_per_s},
+                        {b, -b - config_.loss_behind_per_s, 0, 0},
+                        {s, 0, -s, 0},
+                        {0, 0, 0, 0}}};
     const double early_s = std::min(delay_rest_s_, seconds);
     const Matrix early = exponential(rates, early_s);
     const Matrix late = exponential(rates, seconds - early_s);

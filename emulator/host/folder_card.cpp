@@ -73,6 +73,15 @@ std::vector<std::string> read_names(DIR* folder) {
     return names;
 }
 
+/// When the entry was last written to, in nanoseconds; 0 when that cannot be known.
+std::int64_t changed_at(int folder, const std::string& name) {
+    constexpr std::int64_t second = 1'000'000'000;
+    struct stat status {};
+    return ::fstatat(folder, name.c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0
+               ? static_cast<std::int64_t>(status.st_mtim.tv_sec) * second + status.st_mtim.tv_nsec
+               : 0;
+}
+
 }  // namespace
 
 FolderCard::FolderCard(std::string folder, std::string_view what) : root_(std::move(folder)) {
@@ -125,7 +134,9 @@ bool FolderCard::list(std::string_view folder, std::vector<CardEntry>& out) cons
         const Kind kind = count < max_entries ? look_at(fd.get(), name, bytes) : Kind::missing;
         if (kind != Kind::missing) {
             ++count;
-            (kind == Kind::folder ? folders : out).push_back({std::move(name), kind == Kind::folder, bytes});
+            const std::int64_t changed = changed_at(fd.get(), name);
+            (kind == Kind::folder ? folders : out)
+                .push_back({std::move(name), kind == Kind::folder, bytes, changed});
         }
     }
     std::move(folders.begin(), folders.end(), std::back_inserter(out));

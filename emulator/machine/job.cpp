@@ -5,10 +5,18 @@
 namespace fauxboard::machine {
 
 void Job::select(int volume, std::string path, std::uint64_t bytes) {
-    *this = Job{};
+    forget();
     volume_ = volume;
     path_ = std::move(path);
     bytes_ = bytes;
+}
+
+/// All but what is still shown of the job before.
+void Job::forget() {
+    Job fresh;
+    fresh.shown_ = std::move(shown_);
+    fresh.shown_elapsed_ = active() || status_ == JobStatus::finished ? before_ : shown_elapsed_;
+    *this = std::move(fresh);
 }
 
 bool Job::start(SimTime now) {
@@ -23,6 +31,7 @@ bool Job::start(SimTime now) {
     since_ = now;
     layer = 0;
     message.clear();
+    shown_ = called();
     return true;
 }
 
@@ -57,6 +66,18 @@ void Job::recover(std::uint64_t byte, SimTime elapsed) {
     status_ = JobStatus::recovery;
     byte_ = byte;
     before_ = elapsed;
+    shown_ = called();
+}
+
+void Job::stand_paused(std::uint64_t byte, SimTime elapsed) {
+    recover(byte, elapsed);
+    status_ = JobStatus::paused;
+}
+
+void Job::end(SimTime now) {
+    before_ = elapsed(now);
+    pausing_ = waits_for_user = false;
+    status_ = JobStatus::finished;
 }
 
 void Job::go_on(SimTime now) {
@@ -68,7 +89,7 @@ bool Job::close() {
     if (status_ != JobStatus::finished) {
         return false;
     }
-    *this = Job{};
+    forget();
     return true;
 }
 
@@ -76,7 +97,7 @@ bool Job::stop() {
     if (!active()) {
         return false;
     }
-    *this = Job{};
+    forget();
     return true;
 }
 
@@ -102,8 +123,19 @@ int Job::progress_percent() const {
     return active() && bytes_ > 0 ? static_cast<int>(byte_ * 100 / bytes_) : 0;
 }
 
+double Job::progress() const {
+    if (status_ == JobStatus::finished) {
+        return 100;
+    }
+    return active() && bytes_ > 0 ? static_cast<double>(byte_) * 100 / static_cast<double>(bytes_) : 0;
+}
+
 SimTime Job::elapsed(SimTime now) const {
     return status_ == JobStatus::printing ? before_ + (now - since_) : before_;
+}
+
+SimTime Job::shown_elapsed(SimTime now) const {
+    return active() || status_ == JobStatus::finished ? elapsed(now) : shown_elapsed_;
 }
 
 }  // namespace fauxboard::machine

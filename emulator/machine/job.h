@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 
 #include "emulator/machine/sim_time.h"
 
@@ -32,6 +33,10 @@ class Job {
     bool finish(SimTime now);
     /// A finished job is no longer shown. False when there is none.
     bool close();
+    /// A job that a power loss cut off stands paused.
+    void stand_paused(std::uint64_t byte, SimTime elapsed);
+    /// Whatever there is, it has come to its end, where it is; a new one must be selected.
+    void end(SimTime now);
 
     JobStatus status() const { return status_; }
     /// Printing, paused, or being taken up after a power loss.
@@ -41,8 +46,13 @@ class Job {
     }
     bool pausing() const { return pausing_; }
     int volume() const { return volume_; }
-    /// Path on its disk; empty in L3 unless a job is under way or has just finished.
+    /// Path on its disk.
     const std::string& path() const { return path_; }
+    /// The file that was printed last, or is; it stays when the print is over.
+    const std::string& shown() const { return shown_; }
+    /// What the file is called where it is shown, if that is not its path.
+    void call_it(std::string name) { name_ = std::move(name); }
+    const std::string& called() const { return name_.empty() ? path_ : name_; }
     std::uint64_t byte() const { return active() ? byte_ : 0; }
     std::uint64_t bytes() const { return active() ? bytes_ : 0; }
     /// Size of the file selected.
@@ -54,6 +64,10 @@ class Job {
     int progress_percent() const;
     /// Time printed so far, pauses left out.
     SimTime elapsed(SimTime now) const;
+    /// The same; of the job before, when there is none.
+    SimTime shown_elapsed(SimTime now) const;
+    /// PG, decimals included.
+    double progress() const;
     int layer = 0;
     int layers = 0;
     double estimate_s = 0;        ///< what the slicer thinks it takes; 0 when it did not say
@@ -61,10 +75,15 @@ class Job {
     bool waits_for_user = false;  ///< M0, M1, M600
 
   private:
+    void forget();
+
     JobStatus status_ = JobStatus::idle;
     bool pausing_ = false;
     int volume_ = 0;
     std::string path_;
+    std::string name_;
+    std::string shown_;
+    SimTime shown_elapsed_{0};
     std::uint64_t byte_ = 0;
     std::uint64_t bytes_ = 0;
     SimTime before_{0};  ///< printed up to the last pause

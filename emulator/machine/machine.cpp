@@ -26,7 +26,7 @@ Machine::Machine(const Kind& kind, std::shared_ptr<const MachineConfig> config, 
     if (services_.sd == nullptr && config_->card.present) {
         built_in_.emplace(config_->card.entries);
     }
-    storage.configure(config_->card.way_back, config_->card.ignore_case);
+    storage.configure(config_->card);
     put_in(0);
     if (config_->udisk_port) {
         put_in(1);
@@ -47,6 +47,10 @@ void Machine::power_on(SimTime now) {
     power_on_parts(now);
     events.clear();
     card_check_ = storage.usable(0) ? never : now + card_check_delay;
+    const SimTime rescan = from_seconds(config_->card.rescan_s);
+    card_rescan_ = rescan > SimTime{0} && storage.usable(0) ? now + rescan : never;
+    card_news_ = storage.usable(0);
+    timer_ = never;
 }
 
 void Machine::advance(SimTime now) {
@@ -58,9 +62,10 @@ void Machine::advance(SimTime now) {
         if (hung_) {
             continue;
         }
-        if (card_check_ <= next) {
-            card_check_ = never;
-            events.raise(event("card.missing"));
+        look_after_card(next);
+        if (timer_ <= next) {
+            timer_ = never;
+            events.raise(event("timer.over"));
         }
         run_parts(next);
     }
@@ -71,7 +76,18 @@ void Machine::advance(SimTime now) {
 
 SimTime Machine::next_event() const {
     const SimTime fault = faults.next_event();
-    return hung_ ? fault : std::min({next_of_parts(), card_check_, fault});
+    return hung_ ? fault : std::min({next_of_parts(), card_check_, card_rescan_, timer_, fault});
+}
+
+void Machine::look_after_card(SimTime now) {
+    if (card_check_ <= now) {
+        card_check_ = never;
+        events.raise(event("card.missing"));
+    }
+    if (card_rescan_ <= now) {
+        card_rescan_ = never;
+        card_news_ = storage.usable(0);
+    }
 }
 
 bool Machine::restless() const {
@@ -92,6 +108,7 @@ void Machine::put_in(int disk) {
     const bool was_there = storage.usable(disk);
     storage.attach(disk, volume);
     if (storage.usable(disk) && !was_there) {
+        card_news_ = true;
         events.raise(event("card.inserted"));
     }
 }
@@ -100,6 +117,7 @@ void Machine::remove_card(int disk) {
     const bool was_there = storage.usable(disk);
     storage.attach(disk, nullptr);
     if (was_there) {
+        card_news_ = true;
         events.raise(event("card.removed"));
     }
 }

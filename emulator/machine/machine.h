@@ -46,6 +46,8 @@ class Machine : public JobControl {
     SimTime next_event() const;
     /// Whether anything the board shows may change by the mere passing of time.
     bool restless() const;
+    /// Whether moves or waits that somebody asked for are still to be done.
+    virtual bool at_work() const { return false; }
     SimTime now() const { return now_; }
 
     // Disks: 0 the SD card (or the stick of a board that has one slot), 1 the U-disk.
@@ -58,6 +60,9 @@ class Machine : public JobControl {
     int disk_code() const;
     /// The entries to show now; the buffer is reused.
     const std::vector<CardEntry>& listing();
+    /// A card was read in, or taken out, since card_told().
+    bool card_news() const { return card_news_; }
+    void card_told() { card_news_ = false; }
 
     // The job. What a kind does at each turn of it is among the functions it overrides.
     // ------------------------------------------------------------------------
@@ -65,7 +70,7 @@ class Machine : public JobControl {
     void select_file(std::string_view name);
     bool start_or_resume_job();
     /// False when there is no paused job.
-    bool resume_job();
+    virtual bool resume_job();
     void pause_job(bool park) override;
     void pause_job() { pause_job(true); }
     /// M26: where the file goes on; the place of a job that is under way changes at once.
@@ -88,6 +93,8 @@ class Machine : public JobControl {
     /// The board is to be reset, by whoever owns it; asking takes it.
     void request_reset() { reset_ = true; }
     bool take_reset();
+    /// Raises timer.over after a time; a timer that runs is set anew.
+    void start_timer(SimTime time) { timer_ = now_ + time; }
     /// The USB side has said something.
     void hear_host(SimTime now) { host_heard_ = now; }
     /// It has within the last seconds: somebody prints through the board.
@@ -151,6 +158,8 @@ class Machine : public JobControl {
     virtual void all_off(bool had_job) = 0;
 
   private:
+    void look_after_card(SimTime now);
+
     const Kind& kind_;
     std::shared_ptr<const MachineConfig> config_;
     Services services_;
@@ -161,6 +170,9 @@ class Machine : public JobControl {
     std::string listed_folder_;
     SimTime now_{0};
     SimTime card_check_ = never;  ///< when the board finds out that there is no card
+    SimTime card_rescan_ = never;
+    SimTime timer_ = never;
+    bool card_news_ = false;
     bool hung_ = false;
     bool reset_ = false;
     std::optional<SimTime> host_heard_;

@@ -17,6 +17,7 @@ void Machine::select_file(std::string_view name) {
         case Volume::Kind::file:
             forget_file();
             job.select(storage.chosen(), std::move(found.path), found.bytes);
+            job.call_it(std::move(found.shown));
             events.raise(event("file.selected"));
             break;
         case Volume::Kind::folder:

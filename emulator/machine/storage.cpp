@@ -1,6 +1,9 @@
 #include "emulator/machine/storage.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "emulator/machine/card_names.h"
 
 namespace fauxboard::machine {
 namespace {
@@ -25,12 +28,6 @@ std::string_view without_volume(std::string_view name) {
         return name.substr(colon + 1);
     }
     return name;
-}
-
-bool same_letters(std::string_view a, std::string_view b) {
-    const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [&](char x, char y) { return small(x) == small(y); });
 }
 
 /// Spells each part of the path as the disk does. False when it holds no such file or folder.
@@ -58,7 +55,29 @@ bool quote(char c) {
     return c == '\'' || c == '"';
 }
 
+/// What of a disk's entries a board shows, in its order and under its names.
+void arrange(std::vector<CardEntry>& entries, const CardConfig& config) {
+    std::erase_if(entries, [&](const CardEntry& entry) {
+        const auto holds = [name = short_name(entry.name)](const std::string& word) {
+            return name.find(word) != std::string::npos;
+        };
+        return (entry.folder && !config.folders) ||
+               (!config.only.empty() && std::none_of(config.only.begin(), config.only.end(), holds));
+    });
+    if (config.newest_first) {
+        std::stable_sort(entries.begin(), entries.end(),
+                         [](const CardEntry& a, const CardEntry& b) { return a.changed > b.changed; });
+    }
+    for (CardEntry& entry : entries) {
+        if (config.name_bytes != 0 && entry.name.size() > config.name_bytes) {
+            entry.file = std::exchange(entry.name, short_name(entry.name));
+        }
+    }
+}
+
 }  // namespace
+
+const CardConfig Storage::plain_card;
 
 bool clean_path(std::string_view folder, std::string_view name, std::string& out) {
     if (name.size() > max_path_bytes) {
@@ -142,10 +161,12 @@ void Storage::listing(std::vector<CardEntry>& out, unsigned limit) const {
     if (!usable(chosen_)) {
         return;
     }
-    if (way_back_ && !folder_.empty()) {
-        out.push_back({std::string(way_back) + "/" + std::string(last_part(folder_)), true, 0});
-    }
     volumes_[index(chosen_)]->list(folder_, out);  // a folder that vanished meanwhile shows nothing
+    arrange(out, *config_);
+    if (config_->way_back && !folder_.empty()) {
+        out.insert(out.begin(),
+                   {std::string(way_back) + "/" + std::string(last_part(folder_)), true, 0, 0, {}});
+    }
     if (out.size() > limit) {
         out.resize(limit);
     }
@@ -162,6 +183,9 @@ Storage::Found Storage::find(std::string_view name) const {
     if (!usable(chosen_)) {
         return found;
     }
+    if (config_->by_list) {
+        return find_listed(name);
+    }
     const Volume& volume = *volumes_[index(chosen_)];
     const auto look = [&](std::string_view candidate) {
         std::string path;
@@ -169,7 +193,7 @@ Storage::Found Storage::find(std::string_view name) const {
             return false;
         }
         found.kind = volume.look(path, found.bytes);
-        if (found.kind == Volume::Kind::missing && ignore_case_ && respell(volume, path)) {
+        if (found.kind == Volume::Kind::missing && config_->ignore_case && respell(volume, path)) {
             found.kind = volume.look(path, found.bytes);
         }
         found.kind = found.kind == Volume::Kind::file ? file_trouble_ : found.kind;
@@ -183,6 +207,30 @@ Storage::Found Storage::find(std::string_view name) const {
     if (star != std::string_view::npos &&
         name.find_first_not_of("0123456789", star + 1) == std::string_view::npos) {
         look(name.substr(0, star));
+    }
+    return found;
+}
+
+/// By what the list shows, as a board does that has nothing but its list.
+Storage::Found Storage::find_listed(std::string_view name) const {
+    Found found;
+    if (name.starts_with(' ')) {
+        name.remove_prefix(1);  // the one that parts it from its code
+    }
+    if (!config_->name_ends.empty()) {
+        name = cut_name(name, config_->name_ends);
+        found.kind = name.empty() ? Volume::Kind::unreadable : Volume::Kind::missing;
+    }
+    std::vector<CardEntry> entries;
+    listing(entries, config_->max_listed);
+    for (const CardEntry& entry : entries) {
+        if (!entry.folder && !name.empty() && same_letters(entry.name, name)) {
+            found.kind = file_trouble_;
+            found.path = entry.file.empty() ? entry.name : entry.file;
+            found.shown = entry.name;
+            found.bytes = entry.bytes;
+            break;
+        }
     }
     return found;
 }
@@ -244,7 +292,8 @@ bool Storage::path_for_writing(std::string_view name, std::string& path) const {
         return false;
     }
     const Volume& volume = *volumes_[index(chosen_)];
-    if (std::string folder(parent(path)); ignore_case_ && !folder.empty() && respell(volume, folder)) {
+    if (std::string folder(parent(path));
+        config_->ignore_case && !folder.empty() && respell(volume, folder)) {
         path = folder + "/" + std::string(last_part(path));
     }
     const Volume::Kind kind = volume.look(path, bytes);

@@ -16,6 +16,8 @@ struct CardEntry {
     std::string name;
     bool folder = false;
     std::uint64_t bytes = 0;
+    std::int64_t changed = 0;  ///< when, in any unit that grows; equal where the disk does not know
+    std::string file{};        ///< its real name, where `name` is another one
 };
 
 /// A disk as the board sees it. Paths are relative to its root, parts parted by '/', never starting with one,
@@ -73,10 +75,7 @@ class Storage {
     static constexpr std::size_t disk_count = 2;  // 0 SD card, 1 U-disk
 
     /// How the board lists and finds; as CardConfig says.
-    void configure(bool way_back, bool ignore_case) {
-        way_back_ = way_back;
-        ignore_case_ = ignore_case;
-    }
+    void configure(const CardConfig& config) { config_ = &config; }
 
     void attach(int disk, Volume* volume);  ///< nullptr takes it out
     void set_state(int disk, DiskState state) { states_[index(disk)] = state; }
@@ -134,20 +133,22 @@ class Storage {
         Volume::Kind kind = Volume::Kind::missing;
         std::string path;  ///< relative to the root
         std::uint64_t bytes = 0;
+        std::string shown{};  ///< what the list calls it, if that is not its name
     };
     /// The file that `name` means, relative to the folder shown. A checksum that a screen kept in the name
     /// ("x.gco*74") is taken off when there is no file that is really called so.
     Found find(std::string_view name) const;
 
   private:
+    Found find_listed(std::string_view name) const;
     static std::size_t index(int disk) { return disk == 1 ? 1 : 0; }
     std::array<Volume*, disk_count> volumes_{};
     std::array<DiskState, disk_count> states_{DiskState::removed, DiskState::removed};
     Volume::Kind file_trouble_ = Volume::Kind::file;
     int chosen_ = 0;
     std::string folder_;
-    bool way_back_ = true;
-    bool ignore_case_ = false;
+    static const CardConfig plain_card;
+    const CardConfig* config_ = &plain_card;
 };
 
 /// What stands behind the name of a file that is being written.

@@ -1,5 +1,6 @@
 // What each action of leveling, card, job, EEPROM and the board itself does.
 
+#include "emulator/filament/event_rows.h"
 #include "emulator/machine/event_rows.h"
 #include "tests/behaviour/action_bench.h"
 
@@ -219,6 +220,38 @@ const std::vector<ActionRow>& device_action_rows() {
              CHECK(b.number("heaters.bed.target") == 0);
              CHECK(b.number("motors.enabled") == 0);
              CHECK(b.number("motion.busy") == 0);
+         }},
+        {"card.told",
+         [](Bench& b) {
+             b.machine.power_on(b.now);
+             CHECK(b.number("card.news") == 1);
+             b.run(R"("card.told")");
+             CHECK(b.number("card.news") == 0);
+         }},
+        {"job.end",
+         [](Bench& b) {
+             b.print();
+             b.pass(0.1);
+             b.run(R"([{"heater.target": {"heater": "bed", "c": 60}}, "job.end"])");
+             CHECK(b.number("job.ending") == 1);
+             CHECK(b.number("motion.busy") == 0);
+             CHECK(b.number("heaters.bed.target") == 60);
+             CHECK(b.raised(filament::event("job.ended")));
+             b.run(R"("job.close")");
+             CHECK(b.number("job.status") == 0);
+             b.run(R"("job.end")");
+             CHECK(b.number("job.ending") == 0);
+         }},
+        {"timer.start",
+         [](Bench& b) {
+             b.run(R"({"timer.start": {"ms": 500}})");
+             b.pass(0.4);
+             CHECK_FALSE(b.raised(machine::event("timer.over")));
+             b.run(R"({"timer.start": {"ms": 500}})");
+             b.pass(0.4);
+             CHECK_FALSE(b.raised(machine::event("timer.over")));
+             b.pass(0.2);
+             CHECK(b.raised(machine::event("timer.over")));
          }},
         {"board.stall",
          [](Bench& b) {

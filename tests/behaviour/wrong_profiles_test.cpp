@@ -139,7 +139,7 @@ const std::vector<Wrong>& wrong_profiles() {
          {"a brace without its partner"}},
         {R"({ "frames": { "L2": "L2 {position.x:3f}" } })",
          "small.json:1: /frames/L2: ",
-         {"unknown format \"3f\"", "expected .0f to .6f, d, s, lower or upper"}},
+         {"unknown format \"3f\"", "expected .0f to .6f, d, s, .1s to .512s, lower or upper"}},
         {R"({ "frames": { "L2": "\u20ac" } })", "small.json:1: /frames/L2: ", {"not one byte on the wire"}},
         {R"({ "frames": { "L2": "a\nb" } })", "small.json:1: /frames/L2: ", {"control character"}},
         {R"({ "requests": { "M1": { "do": { "set": { "motion.homed": true } } } } })",

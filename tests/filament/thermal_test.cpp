@@ -151,7 +151,9 @@ TEST_CASE("thermal: any splitting of time gives the same bits") {
 }
 
 TEST_CASE("thermal: the seed decides the noise, and nothing else") {
-    const ThermalConfig config;
+    ThermalConfig config;
+    config.nozzle.plant.noise_c = 0;
+    config.t1.noise_wander_s = 0;
     Thermal a(config, 1);
     Thermal b(config, 1);
     Thermal c(config, 2);
@@ -179,6 +181,50 @@ TEST_CASE("thermal: the seed decides the noise, and nothing else") {
     CHECK(noise_differs);
     CHECK(sum / n == doctest::Approx(0).epsilon(0.02));
     CHECK(std::sqrt(squares / n) == doctest::Approx(0.13).epsilon(0.15));
+}
+
+TEST_CASE(
+    "thermal: noise that wanders differs little from one measurement to the next, and as much in the long "
+    "run") {
+    double largest = 0;
+    double farthest = 0;
+    for (std::uint64_t i = 1; i < 20'000; ++i) {
+        const double here = wandering_noise(3, 2, i, 200);
+        largest = std::max(largest, std::fabs(here - wandering_noise(3, 2, i - 1, 200)));
+        farthest = std::max(farthest, std::fabs(here));
+    }
+    CHECK(largest < 0.04);
+    CHECK(farthest > 1.5);
+    CHECK(wandering_noise(3, 2, 77, 1) == measurement_noise(3, 2, 77));
+}
+
+TEST_CASE("thermal: a long hold at 200 cools as a short one does, and reports as often as recorded") {
+    const ThermalConfig config;
+    for (const double hold_s : {400.0, 3000.0}) {
+        Thermal thermal(config, 1);
+        thermal.power_on(SimTime{0});
+        thermal.set_target(HeaterId::nozzle, 200);
+        thermal.set_target(HeaterId::bed, 50);
+        SimTime now{0};
+        int slots = 0;
+        int reports = 0;
+        while (now < from_seconds(hold_s)) {
+            now += from_seconds(2.0996);
+            thermal.advance(now);
+            if (now < from_seconds(900)) continue;
+            ++slots;
+            if (thermal.moved_since_report()) {
+                ++reports;
+                thermal.mark_reported();
+            }
+        }
+        if (slots != 0) {
+            CHECK(static_cast<double>(reports) / slots == doctest::Approx(695.0 / 1436).epsilon(0.1));
+        }
+        thermal.set_target(HeaterId::nozzle, 0);
+        thermal.advance(now + from_seconds(103));
+        CHECK(std::fabs(thermal.temperature_c(HeaterId::nozzle) - 138) < 1.5);
+    }
 }
 
 TEST_CASE("thermal: inputs without sensor follow the nozzle by their table, jumps included") {

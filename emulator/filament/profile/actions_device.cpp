@@ -56,6 +56,12 @@ constexpr std::array table{
                {},
                own<leveling_enter>},
     ActionInfo{"leveling.adjust", "", "moves Z and the leveling height", adjust_args, own<leveling_adjust>},
+    ActionInfo{"job.end",
+               "",
+               "the job, whatever its state, is at its end, moves and waits are broken off; heaters stay as "
+               "they are. job.close makes the board idle",
+               {},
+               own<[](Printer& p, ActionContext&, Args) { p.end_job(); }>},
     ActionInfo{
         "job.recover",
         "",

@@ -102,13 +102,20 @@ void motors_disable(Printer& p, ActionContext&, Args) {
 
 void fan_pwm(Printer& p, ActionContext& c, Args a) {
     const auto fan = whole(a[0], 0, 2);
-    const double pwm = std::fmin(std::fmax(a[1].number, 0), 255);
+    const BoardFanConfig& board = p.config().board_fan;
+    double pwm = std::fmin(std::fmax(a[1].number, 0), 255);
     if (!fan || *fan == 1) {
         refuse(c, "no such fan; expected 0 (part cooling) or 2");
         return;
     }
-    (*fan == 0 ? p.fans.part_percent : p.fans.second_percent) =
-        static_cast<int>(std::lround(pwm * 100 / 255));
+    if (*fan == 0 && pwm >= 1) {
+        pwm = std::fmax(pwm, board.least_pwm);
+    }
+    const int percent = static_cast<int>(std::lround(pwm * 100 / 255));
+    (*fan == 0 ? p.fans.part_percent : p.fans.second_percent) = percent;
+    if (*fan == 2 && board.automatic) {
+        p.set_board_fan(percent);
+    }
 }
 
 void ratio_check(ActionContext& c, bool taken) {

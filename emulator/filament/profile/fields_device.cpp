@@ -77,6 +77,9 @@ constexpr std::array table{
         [](auto& p) -> auto& { return driver(p).error_limit; }),
     row.shown("power_loss.saved_job", boolean, "", "a job that was cut off can be taken up again",
               [](const Printer& p) { return p.recovery.saved() != nullptr; }),
+    row.shown("power_loss.resumes", boolean, "",
+              "the file of the job to go on with is there, and has its size",
+              [](const Printer& p) { return p.recovery.file_there(); }),
     row.shown("power_loss.path", text, "", "its file",
               [](const Printer& p) {
                   return p.recovery.saved() != nullptr ? std::string_view{p.recovery.saved()->path}

@@ -1,6 +1,7 @@
 // Heaters, motion, mixing, filament, fans: what moves and warms.
 
 #include <array>
+#include <cmath>
 
 #include "emulator/behaviour/field_rows.h"
 #include "emulator/filament/event_rows.h"
@@ -28,6 +29,8 @@ template <HeaterId Id>
 constexpr auto power = [](const Printer& p) { return p.thermal.power(Id) * 100; };
 template <ThermalChannel C>
 constexpr auto printed = [](const Printer& p) { return p.thermal.printed_c(C); };
+template <ThermalChannel C>
+constexpr auto whole_c = [](const Printer& p) { return std::round(p.thermal.printed_c(C)); };
 template <Axis A>
 constexpr auto position = [](const Printer& p) { return p.motion.position(A); };
 template <std::size_t I>
@@ -37,6 +40,8 @@ constexpr std::array table{
     row.shown("heaters.bed.printed", number, "C",
               "bed temperature as the board prints it (folded on boards that fold)",
               printed<ThermalChannel::bed>),
+    row.shown("heaters.bed.whole", integer, "C", "heaters.bed.printed, rounded to whole degrees",
+              whole_c<ThermalChannel::bed>),
     row.shown("heaters.bed.true", number, "C", "real bed temperature, as its sensor feels it",
               true_c<HeaterId::bed>),
     row.handled("heaters.bed.target", number, "C", 0, 1000,
@@ -46,6 +51,8 @@ constexpr std::array table{
     row.shown("heaters.bed.power", number, "%", "output of the bed's controller", power<HeaterId::bed>),
     row.shown("heaters.nozzle.printed", number, "C", "nozzle temperature as the board prints it",
               printed<ThermalChannel::t0>),
+    row.shown("heaters.nozzle.whole", integer, "C", "heaters.nozzle.printed, rounded to whole degrees",
+              whole_c<ThermalChannel::t0>),
     row.shown("heaters.nozzle.true", number, "C", "real nozzle temperature, as its sensor feels it",
               true_c<HeaterId::nozzle>),
     row.handled("heaters.nozzle.target", number, "C", 0, 1000,
@@ -80,6 +87,8 @@ constexpr std::array table{
               [](const Printer& p) { return p.motion.feed_mm_s(); }),
     row.shown("motion.busy", boolean, "", "a move or procedure is under way",
               [](const Printer& p) { return p.motion.busy(); }),
+    row.shown("motion.homing", boolean, "", "axes are being run into their end stops",
+              [](const Printer& p) { return p.motion.homing(); }),
     row.shown("motion.homed", boolean, "", "X, Y and Z were homed since the motors were switched on",
               [](const Printer& p) { return p.motion.homed(); }),
     row.handled(
@@ -107,8 +116,11 @@ constexpr std::array table{
     row.plain("fans.part", integer, "%", 0, 100, "part cooling fan", FAUXBOARD_PLACE(fans.part_percent)),
     row.plain("fans.second", integer, "%", 0, 100, "second fan (M106 P2)",
               FAUXBOARD_PLACE(fans.second_percent)),
-    row.shown("fans.board", integer, "%", "fan of the control board; runs at a fixed speed",
-              [](const Printer& p) { return p.config().board_fan_percent; }),
+    row.handled(
+        "fans.board", integer, "%", 0, 100,
+        "fan of the control board: a fixed speed, or one of its own; set, it holds until that changes",
+        [](const Printer& p) { return p.board_fan_percent(); },
+        [](Printer& p, const Value& v) { p.set_board_fan(static_cast<int>(std::lround(v.number))); }),
 
     row.shown("mixer.packed", integer, "", "mixing ratio as the line packs it: A + 256 B + 65536 C, percents",
               [](const Printer& p) { return pack(p.mixer.ratio()); }),

@@ -33,12 +33,14 @@ void load_plant(const Json& node, const std::string& pointer, Findings& findings
     reader.number("heating_k_per_s", out.heating_k_per_s, 0, 100);
     reader.number("exchange_a_per_s", out.exchange_a_per_s, 0, 10);
     reader.number("exchange_b_per_s", out.exchange_b_per_s, 0, 10);
+    reader.number("loss_behind_per_s", out.loss_behind_per_s, 0, 10);
     reader.number("loss_on_per_s", out.loss_on_per_s, 0, 10);
     reader.number("loss_off_per_s", out.loss_off_per_s, 0, 10);
     reader.number("sensor_lag_s", out.sensor_lag_s, 0.01, 600);
     reader.number("dead_time_s", out.dead_time_s, 0, 60);
     reader.number("ambient_c", out.ambient_c, -50, 100);
     reader.integer("counts_per_c", out.counts_per_c, 1, 1000);
+    reader.number("noise_c", out.noise_c, 0, 10);
     reader.number("first_reading_offset_c", out.first_reading_offset_c, -10, 10);
     reader.finish();
 }
@@ -93,6 +95,7 @@ void load_heater(const Json& node, const std::string& pointer, Findings& finding
         load_protection(*protection, reader.pointer("protection"), findings, out.protection);
     }
     reader.number("max_target_c", out.max_target_c, 0, 1000);
+    reader.boolean("clamps", out.clamps);
     reader.number("done_within_c", out.done_within_c, 0, 100);
     check_too_hot(reader, findings, out);
     reader.finish();
@@ -102,6 +105,7 @@ void load_input(const Json& node, const std::string& pointer, Findings& findings
                 SensorlessInputConfig& out) {
     ObjectReader reader(node, pointer, findings);
     reader.number("noise_c", out.noise_c, 0, 100);
+    reader.number("noise_wander_s", out.noise_wander_s, 0, 3600);
     reader.integer("counts_per_c", out.counts_per_c, 1, 1000);
     const Json* points = reader.get("points");
     reader.finish();
@@ -213,6 +217,8 @@ ProcedureStep load_step(const Json& node, const std::string& pointer, Findings& 
             break;
         case Kind::home:
             load_axis_letters(reader, "home", findings, step);
+            reader.boolean("together", step.together);
+            reader.number("bump_s", step.bump_s, 0, 60);
             break;
         case Kind::homed:
             load_axis_letters(reader, "homed", findings, step);
@@ -273,6 +279,7 @@ void load_motion(const Json& node, const std::string& pointer, Findings& finding
     reader.number("default_feed_mm_s", out.default_feed_mm_s, 0.1, 1000);
     reader.number("probe_trigger_mm", out.probe_trigger_mm, -50, 50);
     reader.numbers("probe_offset_mm", out.probe_offset_mm, -500, 500);
+    reader.number("idle_off_s", out.idle_off_s, 0, 86400);
     if (const Json* mesh = reader.get("bed_mesh_mm")) {
         ObjectReader rows(*mesh, reader.pointer("bed_mesh_mm"), findings);
         for (const auto& [key, row] :
@@ -298,6 +305,27 @@ void load_filament(const Json& node, const std::string& pointer, Findings& findi
     reader.finish();
 }
 
+void load_job(const Json& node, const std::string& pointer, Findings& findings, Config& out) {
+    ObjectReader reader(node, pointer, findings);
+    reader.number("finished_s", out.job.finished_s, 0, 86400);
+    reader.boolean("ends_idle", out.ends_idle);
+    reader.boolean("pause_at_once", out.job.pause_at_once);
+    reader.boolean("cut_off_is_paused", out.job.cut_off_is_paused);
+    reader.boolean("resume_homes_first", out.job.resume_homes_first);
+    reader.finish();
+}
+
+void load_board_fan(const Json& node, const std::string& pointer, Findings& findings, BoardFanConfig& out) {
+    out.automatic = true;
+    ObjectReader reader(node, pointer, findings);
+    reader.integer("idle_percent", out.idle_percent, 0, 100);
+    reader.integer("busy_percent", out.busy_percent, 0, 100);
+    reader.number("nozzle_c", out.nozzle_c, 0, 500);
+    reader.number("bed_c", out.bed_c, 0, 500);
+    reader.number("starts_s", out.starts_s, 0, 60);
+    reader.finish();
+}
+
 }  // namespace
 
 void load_config(ObjectReader& reader, Findings& findings, Config& config) {
@@ -309,17 +337,15 @@ void load_config(ObjectReader& reader, Findings& findings, Config& config) {
     part("thermal", load_thermal, config.thermal);
     part("motion", load_motion, config.motion);
     part("filament", load_filament, config.filament);
-    if (const Json* node = reader.get("job")) {
-        ObjectReader job(*node, reader.pointer("job"), findings);
-        job.number("finished_s", config.job.finished_s, 0, 86400);
-        job.finish();
-    }
+    part("job", load_job, config);
+    part("board_fan", load_board_fan, config.board_fan);
     if (const Json* node = reader.get("host")) {
         ObjectReader host(*node, reader.pointer("host"), findings);
         host.number("busy_s", config.host.busy_s, 0, 3600);
         host.finish();
     }
-    reader.integer("board_fan_percent", config.board_fan_percent, 0, 100);
+    reader.integer("board_fan_percent", config.board_fan.percent, 0, 100);
+    reader.integer("part_fan_least_pwm", config.board_fan.least_pwm, 0, 255);
     reader.number("manual_level_start_mm", config.manual_level_start_mm, 0, 500);
 }
 
