@@ -21,14 +21,23 @@ constexpr std::uintmax_t max_bytes = 4U * 1024 * 1024;
 /// A kind of file: what its "$schema" names, and who knows its meaning.
 struct Kind {
     std::string_view schema;
-    void (*load)(const SourceText& source);  ///< throws behaviour::ProfileError
+    std::string (*load)(const SourceText& source);  ///< gives a remark; throws behaviour::ProfileError
 };
 constexpr Kind kinds[] = {
     {"profile.schema.json",
-     [](const SourceText& source) { behaviour::load_profile(source, host::profile_finder()); }},
+     [](const SourceText& source) {
+         return overrun_remark(*behaviour::load_profile(source, host::profile_finder()));
+     }},
     {"screen.schema.json",
-     [](const SourceText& source) { screen::load_screen(source, host::profile_finder()); }},
-    {"scenario.schema.json", [](const SourceText& source) { host::check_script(source); }},
+     [](const SourceText& source) {
+         screen::load_screen(source, host::profile_finder());
+         return std::string();
+     }},
+    {"scenario.schema.json",
+     [](const SourceText& source) {
+         host::check_script(source);
+         return std::string();
+     }},
 };
 
 std::optional<SourceText> read(const fs::path& file) {
@@ -136,7 +145,7 @@ CheckedFile check_file(const std::string& file) {
             return out;
         }
         try {
-            kind->load(*source);
+            out.remark = kind->load(*source);
         } catch (const behaviour::ProfileError& error) {
             out.problems = error.problems();
         }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "emulator/behaviour/document.h"
+#include "emulator/behaviour/profile.h"
 
 namespace fauxboard::tools {
 
@@ -27,8 +28,11 @@ struct CheckedFile {
     std::string file;
     bool readable = true;
     std::vector<behaviour::Problem> problems;
-    std::string remark;  ///< what could not be checked, and why; empty when all was
+    std::string remark;  ///< what could not be checked, and why, or what is worth knowing; may be empty
 };
+
+/// What a profile may send in one go that is more than its screen's receiving ring holds; empty: nothing.
+std::string overrun_remark(const behaviour::Profile& profile);
 
 /// Checks one file, or a profile by name: first its meaning, with all that it extends, then its form against
 /// the schema in the profiles' folders. What the loader has found already is not told twice.

@@ -85,6 +85,10 @@ std::span<const TriggerInfo> trigger_kinds() {
         TriggerInfo{"page", "name", "the virtual screen has this page open", Trigger::Kind::page},
         TriggerInfo{"shows", "pattern", "a line of what the virtual screen shows matches",
                     Trigger::Kind::shows},
+        TriggerInfo{"judged", "pattern",
+                    "the virtual screen took a line otherwise than it was meant, and the sentence that says so matches: "
+                    "\"L7 P0 ...: cut: a name of ...\"; of all lines so far",
+                    Trigger::Kind::judged},
     };
     return table;
 }
@@ -140,6 +144,8 @@ std::string_view what_of(Trigger::Kind kind) {
             return "a request of the host";
         case Trigger::Kind::host_line:
             return "a line of the board to the host";
+        case Trigger::Kind::judged:
+            return "the screen to take a line otherwise than it was meant, in words";
         default:
             return "the screen to show something";
     }
@@ -207,10 +213,11 @@ Trigger Compiler::trigger(const Json& node, const std::string& pointer, Trigger:
         case Trigger::Kind::host_request:
         case Trigger::Kind::host_line:
         case Trigger::Kind::shows:
+        case Trigger::Kind::judged:
             out.pattern = this->pattern(*value, at);
             out.words = fmt::format("{} that matches \"{}\"", what_of(out.kind), plain(*value));
-            if (out.kind == Trigger::Kind::shows) {
-                needs_screen(at, "shows");
+            if (out.is_state()) {
+                needs_screen(at, out.kind == Trigger::Kind::shows ? "shows" : "judged");
             }
             break;
         case Trigger::Kind::event:

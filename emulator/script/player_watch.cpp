@@ -15,6 +15,15 @@ using Verdict = Outcome::Verdict;
 
 constexpr SimTime real_grace = std::chrono::minutes(5);
 
+/// How the screen took lines otherwise than they were meant, a sentence a line.
+std::string judged(const screen::Screen& screen) {
+    std::string out;
+    for (const screen::Finding& finding : screen.findings()) {
+        out += finding.first.sentence() + '\n';
+    }
+    return out;
+}
+
 }  // namespace
 
 SimTime Player::real_limit(const Step& step) const {
@@ -87,7 +96,7 @@ bool Player::holds(const Trigger& trigger) {
     if (trigger.kind == Trigger::Kind::page) {
         return screen->standpoint().page == trigger.page;
     }
-    const std::string shown = screen->show();
+    const std::string shown = trigger.kind == Trigger::Kind::judged ? judged(*screen) : screen->show();
     const std::string bytes = behaviour::to_wire(shown).value_or(shown);
     std::string_view rest = bytes;
     while (!rest.empty() && !out) {

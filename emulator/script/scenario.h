@@ -46,7 +46,8 @@ struct Trigger {
         event,
         field,
         page,   ///< the virtual screen has it open
-        shows,  ///< the virtual screen shows a text that matches
+        shows,   ///< the virtual screen shows a text that matches
+        judged,  ///< the virtual screen took a line otherwise than it was meant, in words that match
     };
     Kind kind = Kind::time;
     SimTime time{0};
@@ -58,7 +59,9 @@ struct Trigger {
     std::string words;  ///< "the event motion.homed (...)"
 
     /// Something that is so or not, and must be looked at; the others happen.
-    bool is_state() const { return kind == Kind::field || kind == Kind::page || kind == Kind::shows; }
+    bool is_state() const {
+        return kind == Kind::field || kind == Kind::page || kind == Kind::shows || kind == Kind::judged;
+    }
 };
 
 struct Step;

@@ -2,6 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <utility>
+
+#include "emulator/host/profile_files.h"
 #include "protocol/framing.h"
 #include "tests/support/board_driver.h"
 
@@ -15,7 +18,10 @@ namespace {
 /// A board ready to be fed, in a stretch in which it says nothing by itself.
 struct Ready {
     BoardDriver driver;
-    explicit Ready(const char* profile = "geeetech-a30t") : driver(profile) { driver.finish_boot(); }
+    explicit Ready(std::shared_ptr<const behaviour::Profile> profile = shipped_profile("geeetech-a30t"))
+        : driver(std::move(profile), {}) {
+        driver.finish_boot();
+    }
 
     /// Feeds, and gives what the board says to it.
     string answer(const string& bytes) {
@@ -91,7 +97,9 @@ TEST_CASE("line numbers: other than -0, several of them, or none") {
 }
 
 TEST_CASE("a screen of bare lines: the checksum may be missing, and must be right where there is one") {
-    Ready ready("geeetech-a30");
+    Ready ready(behaviour::load_profile({"own.json", R"({ "name": "own", "extends": "geeetech-a30t",
+                                                          "line": { "checksum": "if_present" } })"},
+                                        host::profile_finder()));
     CHECK(ready.answer("M2140 S5\r\n") == good);
     CHECK(ready.answer("N-0 M2140 S5\r\n") == good);
     CHECK(ready.answer("N-0 M2140 S5*127\r\n") == good);

@@ -209,9 +209,5 @@ TEST_CASE("bad parameters: an A30 board never sends the exception page that rese
         ready.driver.run_for(0.06);
     }
     ready.driver.run_for(1);
-    const auto pages = ready.driver.matching("L18 P26 S");
-    CHECK(pages.size() == 15);
-    for (const auto& line : pages) {
-        CHECK(std::stoi(line.body.substr(9)) < 15);
-    }
+    CHECK(ready.driver.matching("L18").empty());
 }

@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <map>
+
 #include "tests/support/board_driver.h"
 
 using namespace fauxboard;
@@ -156,8 +158,18 @@ TEST_CASE("files: a full card is told up to what the screen's table holds, and t
         names.push_back("a_rather_long_file_name_of_a_print_" + std::to_string(i) + ".gcode");
     }
     WithCard card(names);
-    const auto said_lines = card.driver.ask("M20 LCD", 0.15);
+    const double asked = card.driver.now();
+    const auto said_lines = card.driver.ask("M20 LCD", 0.6);
     REQUIRE(said_lines.size() == 66);
+    // In pieces that a screen's ring of 1279 bytes can take: no more than 480 bytes a tick.
+    std::map<double, std::size_t> ticks;
+    for (const auto& line : card.driver.matching("L7", asked)) {
+        ticks[line.at] += line.line.size() + 2;
+    }
+    CHECK(ticks.size() > 6);
+    for (const auto& [at, bytes] : ticks) {
+        CHECK(bytes <= 480);
+    }
     CHECK(said_lines.front() == "L7 begin file list:0");
     CHECK(said_lines[64] == "L7 P63 a_rather_long_file_name_of_a_print_63.gcode");
     CHECK(said_lines.back() == "L7 end file list:0");
@@ -169,13 +181,20 @@ TEST_CASE("files: names too long for one message are left out, the list still ha
         names.push_back(std::to_string(i) + std::string(240, 'x'));
     }
     WithCard card(names);
-    const auto said_lines = card.driver.ask("M20 LCD", 0.15);
+    const double asked = card.driver.now();
+    card.driver.press("M20 LCD");
+    card.driver.run_for(2);
+    std::vector<std::string> said_lines;
+    for (const auto& line : card.driver.matching("L7", asked)) {
+        said_lines.push_back(line.body);
+    }
     REQUIRE(said_lines.size() > 10);
     CHECK(said_lines.front() == "L7 begin file list:0");
     CHECK(said_lines.back() == "L7 end file list:0");
     for (const std::string& body : said_lines) {
         CHECK(body.starts_with("L7 "));
     }
+    card.driver.run_to_quiet();
     CHECK(card.driver.ask("M2140 S5", 0.15).size() == 1);
 }
 

@@ -83,7 +83,7 @@ TEST_CASE("job: PS goes 0, 1, 2, 1, 0 through start, pause, resume and stop") {
     CHECK(driver.number("heaters.bed.target") == 0);
     const auto after = driver.matching("L3", stop);
     REQUIRE(!after.empty());
-    CHECK(after.back().body.find(" FN: PG:0 ") != std::string::npos);
+    CHECK(after.back().body.find(" FN:testpattern.gcode PG:0 ") != std::string::npos);
 }
 
 TEST_CASE("job: a pause asked for again while the first is under way gets the frame without checksum") {

@@ -131,7 +131,7 @@ TEST_CASE(
     const std::string finished = print.l3();
     CHECK(finished == expected_l3(4, 0, "Part.gcode", 100, Print::field(finished, "TM"), 5, 5));
     driver.run_for(15);
-    CHECK(print.l3() == expected_l3(0, 0, "", 0, 0, 0, 0));
+    CHECK(print.l3() == expected_l3(0, 0, "Part.gcode", 0, 0, 0, 0));
     CHECK(driver.number("job.moves") >= 3000);
 
     int highest = 0;
@@ -190,7 +190,7 @@ TEST_CASE("print: a stop ends it, heaters off, and the file may be printed again
     const auto said = driver.ask("M2103", 0.2);
     REQUIRE(said.size() >= 2);
     CHECK(said[0] == "raw:Stop Print");
-    CHECK(said[1] == expected_l3(0, 1, "", 0, 0, 0, 0));
+    CHECK(said[1] == expected_l3(0, 1, "Part.gcode", 0, 0, 0, 0));
     CHECK(driver.number("heaters.nozzle.target") == 0);
     print.start();
     CHECK(driver.number("job.status") == 1);

@@ -118,7 +118,7 @@ TEST_CASE("recovery: dropped, the job is forgotten; another power-on offers noth
     cuts.power_on();
     cuts.start();
     cuts.driver->run_for(60);
-    cuts.power_on("geeetech-a30");
+    cuts.power_on();
     CHECK(cuts.offers() == 1);
     cuts.driver->press("M2130 P0 S0");
     cuts.driver->run_for(0.3);

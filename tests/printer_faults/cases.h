@@ -29,8 +29,6 @@ struct FaultCase {
     void (*back)(Rig&) = nullptr;        ///< mends it; null: it is taken away by the control channel
     std::vector<std::string> said_back;  ///< as `said`, after that
     Fields state_back;
-    std::optional<int> a30_page;  ///< where its screen has another page, or none: -1
-    std::string_view a30_silent;  ///< of `said`, what the A30's board does not say
 
     std::string_view kind() const { return std::string_view(spec).substr(0, spec.find(':')); }
 };

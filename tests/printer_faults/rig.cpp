@@ -178,7 +178,7 @@ void Rig::on_received(SimTime now, board::Channel channel, std::string_view line
 }
 
 void Rig::on_sent(SimTime now, board::Channel channel, std::string_view line) {
-    lines_.push_back({machine::to_seconds(now), said(line)});
+    lines_.push_back({machine::to_seconds(now), said(line, board_.profile())});
     hub_.on_sent(now, channel, line);
 }
 

@@ -65,6 +65,16 @@ struct A30 {
     }
 };
 
+TEST_CASE(
+    "shipped pairs: a board and its screen through a print and all that can befall it, each line taken as "
+    "meant") {
+    for (const char* name : {"pair-a30", "pair-a30t"}) {
+        CAPTURE(std::string(name));
+        const testing::ScenarioRun run = testing::play(testing::shipped_scenario(name), {});
+        CHECK_MESSAGE(run.outcome.verdict == Outcome::Verdict::passed, run.outcome.sentence);
+    }
+}
+
 TEST_CASE("shipped scenarios: nothing that the board says in them crashes the A30's screen") {
     for (const char* name : {"day-of-bad-luck", "leveling-session", "power-loss",
                              "print-with-filament-change", "soak", "tour-of-pages"}) {

@@ -21,10 +21,10 @@ using testing::ScenarioRun;
 using Verdict = Outcome::Verdict;
 
 const std::vector<std::string>& shipped() {
-    static const std::vector<std::string> names{"day-of-bad-luck",    "leveling-session",
-                                                "power-loss",         "print-with-filament-change",
-                                                "resin-stick-pulled", "soak",
-                                                "tour-of-pages"};
+    static const std::vector<std::string> names{
+        "day-of-bad-luck", "leveling-session",           "pair-a30",           "pair-a30t",
+        "power-loss",      "print-with-filament-change", "resin-stick-pulled", "soak",
+        "tour-of-pages"};
     return names;
 }
 

@@ -33,6 +33,11 @@ std::string said(std::string_view line) {
     return right ? body : "raw:" + std::string(line);
 }
 
+std::string said(std::string_view line, const behaviour::Profile& profile) {
+    const bool code = line.size() > 1 && line[0] == 'L' && line[1] >= '0' && line[1] <= '9';
+    return !profile.line.framed && code ? std::string(line) : said(line);
+}
+
 std::string join(const std::vector<std::string>& texts) {
     std::string out;
     for (const std::string& text : texts) {
@@ -81,7 +86,9 @@ void BoardDriver::run_to_quiet() {
     const behaviour::Schedule& schedule = board_.profile().schedule;
     const double slot = to_seconds(schedule.slot);
     const double round = slot * static_cast<double>(schedule.slots.size());
-    const double quiet = to_seconds(schedule.first) + 4 * slot + 0.01;
+    // Behind the last slot but one that may have something to say on an idle board.
+    const double last = schedule.slots.size() > 5 ? 4 : 3;
+    const double quiet = to_seconds(schedule.first) + last * slot + 0.01;
     run_until(quiet + round * std::ceil((now_ - quiet) / round));
 }
 
@@ -198,7 +205,7 @@ void BoardDriver::on_sent(board::SimTime now, board::Channel channel, std::strin
         replies_.push_back({to_seconds(now), std::string(line)});
         return;
     }
-    lines_.push_back({to_seconds(now), std::string(line), said(line)});
+    lines_.push_back({to_seconds(now), std::string(line), said(line, board_.profile())});
     transcript_ += std::to_string(now.count()) + ' ' + std::string(line) + '\n';
 }
 

@@ -14,6 +14,8 @@ std::shared_ptr<const behaviour::Profile> shipped_profile(std::string_view name)
 
 /// What a line of the board says: the body of a frame whose checksum is right, else "raw:" and the line.
 std::string said(std::string_view line);
+/// The same of a board without frames too: there an "L2 ..." is as it stands.
+std::string said(std::string_view line, const behaviour::Profile& profile);
 
 /// The texts, a line each: what a failed comparison can show.
 std::string join(const std::vector<std::string>& texts);
@@ -24,7 +26,7 @@ class BoardDriver final : private board::Observer {
     struct Line {
         double at = 0;
         std::string line;  ///< as on the wire, line end left off
-        std::string body;  ///< said(line)
+        std::string body;  ///< said(line); of a board without frames an "L2 ..." is as it stands
     };
     struct Received {
         double at = 0;

@@ -39,7 +39,13 @@ Vector read_vector(const json& node) {
     out.host = texts(node, "host");
     if (const json& replies = node.at("replies"); !replies.is_null()) {
         for (const json& item : replies) {
-            out.replies.push_back(item.is_object() ? "raw:" + wire(item.at("raw")) : wire(item));
+            const bool direct = item.is_object() && item.contains("direct");
+            if (direct) {
+                out.direct.insert(out.replies.size());
+            }
+            out.replies.push_back(direct             ? wire(item.at("direct"))
+                                  : item.is_object() ? "raw:" + wire(item.at("raw"))
+                                                     : wire(item));
         }
     }
     const json state = node.value("state", json::object());
@@ -50,6 +56,7 @@ Vector read_vector(const json& node) {
             out.state[path] = value.get<double>();
         }
     }
+    out.paced = node.value("paced", false);
     out.after_s = node.value("after_s", 2.0);
     return out;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,8 @@ struct Vector {
     std::vector<std::string> frame;    ///< the same as on the wire
     std::vector<std::string> host;     ///< instead of `send`: lines on the USB side
     std::vector<std::string> replies;  ///< as said() gives them
+    bool paced = false;                ///< so only where the board's queue is in use
+    std::set<std::size_t> direct;      ///< of them, those that are not queued
     std::map<std::string, double> state;
     std::map<std::string, std::string> texts;  ///< state of text fields
     double after_s = 2;
