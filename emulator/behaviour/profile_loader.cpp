@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "emulator/behaviour/kind.h"
+#include "emulator/behaviour/line_loader.h"
 #include "emulator/behaviour/machine_loader.h"
 #include "emulator/behaviour/nearest.h"
 #include "emulator/behaviour/profile.h"
@@ -26,8 +27,6 @@ class Loader {
 
   private:
     void load_head(ObjectReader& root);
-    void load_line(const Json& node, const std::string& pointer);
-    void load_transmit(const Json& node, const std::string& pointer);
     void load_variables(const Json& node, const std::string& pointer);
     void name_frames(const Json& node, const std::string& pointer);
     void load_frame(const Json& node, const std::string& pointer, Frame& frame);
@@ -62,55 +61,15 @@ void Loader::load_head(ObjectReader& root) {
     std::size_t protocol = 0;
     root.required("protocol");
     root.choice("protocol", protocols, protocol);
-    style_ = protocol == 0 ? protocol::FrameStyle::framed : protocol::FrameStyle::bare;
     profile_->line.framing = static_cast<Framing>(protocol);
+    bool framed = protocol == 0;
     if (const Json* line = root.get("line")) {
-        load_line(*line, root.pointer("line"));
+        load_line(*line, root.pointer("line"), findings_, profile_->line, framed);
     }
-    if (const Json* transmit = root.get("transmit")) {
-        load_transmit(*transmit, root.pointer("transmit"));
-    }
-}
-
-void Loader::load_transmit(const Json& node, const std::string& pointer) {
-    ObjectReader reader(node, pointer, findings_);
-    double ms = static_cast<double>(profile_->tick.count()) / 1000;
-    double first_ms = 0;
-    reader.number("tick_ms", ms, 0.1, 10000);
-    reader.number("first_ms", first_ms, 0, 60'000);
-    reader.unsigned_integer("burst_bytes", profile_->burst_bytes, 16, 65536);
-    profile_->piece_bytes = profile_->burst_bytes;
-    reader.unsigned_integer("piece_bytes", profile_->piece_bytes, 16, 65536);
-    reader.unsigned_integer("queue_codes", profile_->queue_codes, 1, 1024);
-    reader.finish();
-    profile_->tick = machine::from_seconds(ms / 1000);
-    profile_->first_tick = machine::from_seconds(first_ms / 1000);
-}
-
-void Loader::load_line(const Json& node, const std::string& pointer) {
-    ObjectReader reader(node, pointer, findings_);
-    reader.unsigned_integer("baud", profile_->line.baud, 300, 4'000'000);
-    reader.unsigned_integer("queue_lines", profile_->line.queue_lines, 1, 1024);
-    constexpr std::array<std::string_view, 3> policies{"required", "if_present", "ignored"};
-    auto policy = static_cast<std::size_t>(profile_->line.checksum);
-    reader.choice("checksum", policies, policy);
-    profile_->line.checksum = static_cast<protocol::ChecksumPolicy>(policy);
-    reader.text("peer", profile_->line.peer, 16);
-    double unfinished_ms = 0;
-    reader.number("unfinished_ms", unfinished_ms, 0, 60'000);
-    profile_->line.unfinished = machine::from_seconds(unfinished_ms / 1000);
-    bool framed = style_ == protocol::FrameStyle::framed;
-    reader.boolean("framed", framed);
     style_ = framed ? protocol::FrameStyle::framed : protocol::FrameStyle::bare;
-    profile_->line.framed = framed;
-    reader.unsigned_integer("ring_bytes", profile_->line.ring_bytes, 16, 65536);
-    reader.unsigned_integer("line_bytes", profile_->line.line_bytes, 16,
-                            static_cast<unsigned>(protocol::max_line_bytes));
-    std::string comment;
-    reader.text("comment_from", comment, 1);
-    profile_->line.comment = comment.empty() ? '\0' : comment[0];
-    reader.text("codes", profile_->line.codes, 8);
-    reader.finish();
+    if (const Json* transmit = root.get("transmit")) {
+        load_transmit(*transmit, root.pointer("transmit"), findings_, *profile_);
+    }
 }
 
 void Loader::load_variables(const Json& node, const std::string& pointer) {
