@@ -70,6 +70,9 @@ struct ProtectionConfig {
     /// Once there, it may be more than runaway_c below its target for runaway_s.
     double runaway_s{40};
     double runaway_c{15};
+    /// Of a simpler board: all that counts is that the reading moves at all, up or down, while it is more
+    /// than runaway_c below the target; watch_s starts anew with each watch_rise_c.
+    bool any_change{false};
     /// What an open and a shorted sensor read: the ends of the firmware's table.
     double open_reads_c{0};
     double shorted_reads_c{300};

@@ -2,6 +2,7 @@
 #include "emulator/filament/names.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace fauxboard::filament {
 namespace {
@@ -34,6 +35,9 @@ bool ThermalProtection::check(SimTime now, double target_c, double reading_c) {
 }
 
 ThermalAlarm ThermalProtection::watch(SimTime now, double target_c, double reading_c) {
+    if (config_->any_change) {
+        return still(now, target_c, reading_c);
+    }
     reached_ = reached_ || reading_c >= target_c;
     if (reached_) {
         if (reading_c >= target_c - config_->runaway_c) {
@@ -51,6 +55,18 @@ ThermalAlarm ThermalProtection::watch(SimTime now, double target_c, double readi
         due_ = now + from_seconds(config_->watch_s);
         due_c_ = reading_c + config_->watch_rise_c;
         return ThermalAlarm::none;
+    }
+    return now >= due_ ? ThermalAlarm::no_rise : ThermalAlarm::none;
+}
+
+ThermalAlarm ThermalProtection::still(SimTime now, double target_c, double reading_c) {
+    if (reading_c >= target_c - config_->runaway_c) {
+        due_ = never;
+        return ThermalAlarm::none;
+    }
+    if (due_ == never || std::fabs(reading_c - due_c_) >= config_->watch_rise_c) {
+        due_ = now + from_seconds(config_->watch_s);
+        due_c_ = reading_c;
     }
     return now >= due_ ? ThermalAlarm::no_rise : ThermalAlarm::none;
 }

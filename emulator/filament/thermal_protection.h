@@ -32,6 +32,7 @@ class ThermalProtection {
 
   private:
     ThermalAlarm watch(SimTime now, double target_c, double reading_c);
+    ThermalAlarm still(SimTime now, double target_c, double reading_c);
 
     const ProtectionConfig* config_;
     ThermalAlarm alarm_ = ThermalAlarm::none;

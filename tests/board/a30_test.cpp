@@ -376,3 +376,20 @@ TEST_CASE(
     driver.run_for(0.3);
     CHECK(driver.number("fans.board") == 71);
 }
+
+TEST_CASE("A30: no heater that is well is called faulty, whatever it is to reach") {
+    for (const int nozzle : {40, 60, 100, 150, 170, 180, 185, 190, 195, 200, 205, 210, 220, 230, 240}) {
+        CAPTURE(nozzle);
+        A30 a30;
+        BoardDriver& driver = *a30.driver;
+        a30.say("M140 S" + std::to_string(std::min(110, nozzle / 2)));
+        driver.run_for(60);
+        a30.say("M104 S" + std::to_string(nozzle));
+        driver.run_for(400);
+        a30.say("M106 S255");
+        driver.run_for(1200);
+        CHECK(driver.matching("L18").empty());
+        CHECK(driver.number("heaters.nozzle.target") == nozzle);
+        CHECK(driver.number("heaters.bed.target") == std::min(110, nozzle / 2));
+    }
+}

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <string_view>
 #include <vector>
 
 #include "emulator/filament/thermal.h"
@@ -95,8 +96,8 @@ const std::vector<Course>& courses() {
 /// Goes through `course` and collects what take_alarm() gives, asked after each of the steps that
 /// `next(thermal, now)` says.
 template <class Next>
-std::vector<Found> go_through(const Course& course, unsigned& steps, Next next) {
-    const ThermalConfig config;
+std::vector<Found> go_through(const Course& course, unsigned& steps, Next next,
+                              const ThermalConfig& config = {}) {
     Thermal thermal(config, 7);
     thermal.power_on(SimTime{0});
     std::vector<Found> found;
@@ -147,6 +148,30 @@ TEST_CASE(
             // The one looks each 0.1 s, at the latest so long after the measurement.
             CHECK(watched[i].at - planned[i].at >= SimTime{0});
             CHECK(watched[i].at - planned[i].at < SimTime{100'000});
+        }
+    }
+}
+
+TEST_CASE("thermal: where any change counts, a heater that only cools is found when it has come to rest") {
+    ThermalConfig config;
+    config.nozzle.protection = {.watch_s = 18, .watch_rise_c = 1, .runaway_c = 10, .any_change = true};
+    config.bed.protection = {.watch_s = 60, .watch_rise_c = 1, .runaway_c = 10, .any_change = true};
+    for (const Course& course : courses()) {
+        CAPTURE(course.name);
+        unsigned steps = 0;
+        const auto every = [](const Thermal&, SimTime now) { return now + SimTime{100'000}; };
+        const auto planned = [](const Thermal& thermal, SimTime) { return thermal.next_alarm_check(); };
+        const std::vector<Found> all = go_through(course, steps, every, config);
+        const std::vector<Found> few = go_through(course, steps, planned, config);
+        REQUIRE(few.size() == all.size());
+        for (std::size_t i = 0; i < few.size(); ++i) {
+            CHECK(few[i].alarm == all[i].alarm);
+            CHECK(all[i].at - few[i].at < SimTime{100'000});
+        }
+        if (course.name == std::string_view("power lost when hot")) {
+            REQUIRE(all.size() == 1);
+            CHECK(all[0].at > from_seconds(400 + 120));
+            CHECK(all[0].alarm == ThermalAlarm::no_rise);
         }
     }
 }

@@ -43,7 +43,7 @@ constexpr std::pair<std::string_view, int> a30_pages[] = {
     {"shorted thermistor, a host prints", 2},
     {"shorted thermistor of the bed, a host prints", 3},
     {"dead heater, heating up", 2},
-    {"dead heater, printing", 4},
+    {"dead heater, printing", no_page},  // any change counts: opens 4 when it has nearly cooled down
     {"dead bed, held", 3},
     {"runaway, printing", no_page},
     {"runaway of the bed", no_page},

@@ -65,7 +65,7 @@ json everything() {
                     "pid": { "kp": 1, "ki": 1, "kd": 1, "k1": 0.5, "range_c": 5, "off_below_c": 5, "max_output": 255 },
                     "max_target_c": 260, "clamps": false, "done_within_c": 2,
                     "protection": { "min_c": 5, "max_c": 300, "open_reads_c": -15, "shorted_reads_c": 400, "watch_s": 20, "watch_rise_c": 2,
-                                    "runaway_s": 40, "runaway_c": 4 } },
+                                    "runaway_s": 40, "runaway_c": 4, "any_change": true } },
                 "bed": { "max_target_c": 90 },
                 "t1": { "noise_c": 0, "noise_wander_s": 0, "counts_per_c": 5, "points": [ [0, 0], [100, 50] ] },
                 "t2": { "noise_c": 0 } },

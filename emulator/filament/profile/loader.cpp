@@ -64,6 +64,7 @@ void load_protection(const Json& node, const std::string& pointer, Findings& fin
     reader.number("max_c", out.max_c, 0, 1000);
     reader.number("watch_s", out.watch_s, 0.1, 3600);
     reader.number("watch_rise_c", out.watch_rise_c, 0, 100);
+    reader.boolean("any_change", out.any_change);
     reader.number("runaway_s", out.runaway_s, 0.1, 3600);
     reader.number("runaway_c", out.runaway_c, 0, 500);
     reader.number("open_reads_c", out.open_reads_c, -300, 2000);
