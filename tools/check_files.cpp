@@ -1,11 +1,14 @@
 #include "tools/check_files.h"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <iterator>
 
+#include "emulator/behaviour/nearest.h"
 #include "emulator/behaviour/profile.h"
 #include "emulator/host/profile_files.h"
+#include "emulator/host/screen_files.h"
 #include "emulator/host/script_files.h"
 #include "emulator/screen/screen_profile.h"
 
@@ -18,17 +21,22 @@ using behaviour::SourceText;
 
 constexpr std::uintmax_t max_bytes = 4U * 1024 * 1024;
 
-/// A kind of file: what its "$schema" names, and who knows its meaning.
+/// A kind of file: what its "$schema" names, keys that no other kind has, and who knows its meaning.
 struct Kind {
     std::string_view schema;
+    std::array<std::string_view, 4> marks;
     void (*load)(const SourceText& source);  ///< throws behaviour::ProfileError
 };
 constexpr Kind kinds[] = {
     {"profile.schema.json",
+     {"protocol", "machine", "requests", "boot"},
      [](const SourceText& source) { behaviour::load_profile(source, host::profile_finder()); }},
     {"screen.schema.json",
-     [](const SourceText& source) { screen::load_screen(source, host::profile_finder()); }},
-    {"scenario.schema.json", [](const SourceText& source) { host::check_script(source); }},
+     {"pages", "everywhere", "values", "tour"},
+     [](const SourceText& source) { screen::load_screen(source, host::screen_finder()); }},
+    {"scenario.schema.json",
+     {"steps", "parameters", "limits", "screen"},
+     [](const SourceText& source) { host::check_script(source); }},
 };
 
 std::optional<SourceText> read(const fs::path& file) {
@@ -70,11 +78,16 @@ std::optional<nlohmann::json> load_schema(std::string_view schema_file) {
     return std::nullopt;
 }
 
-/// What kind of file it is: its "$schema" says so; without one it is taken for a profile. Null: no known one.
+/// What kind of file it is: its "$schema" says so, else the first key that only one kind has; what has neither is taken
+/// for a profile. Null: no known one.
 const Kind* kind_of(const behaviour::Document& document) {
     const auto schema = document.root.find("$schema");
     if (schema == document.root.end()) {
-        return &kinds[0];
+        const auto* const hit = std::find_if(std::begin(kinds), std::end(kinds), [&](const Kind& kind) {
+            return std::any_of(kind.marks.begin(), kind.marks.end(),
+                               [&](std::string_view mark) { return document.root.contains(mark); });
+        });
+        return hit == std::end(kinds) ? &kinds[0] : hit;
     }
     const std::string name =
         schema->is_string() ? fs::path(schema->get_ref<const std::string&>()).filename().string() : "";
@@ -117,6 +130,29 @@ void check_form(const behaviour::Document& document, const SourceText& source, c
     }
 }
 
+/// The profile, screen or scenario whose name is most like this one, with its kind; empty when `file` is a path.
+std::string nearest_name(const std::string& file) {
+    if (file.find('/') != std::string::npos || file.ends_with(".json")) {
+        return {};
+    }
+    std::vector<std::pair<std::string, std::string>> known;  // name, kind
+    const auto add = [&known](const char* kind, const std::vector<host::ProfileEntry>& entries) {
+        for (const host::ProfileEntry& entry : entries) {
+            known.emplace_back(entry.name, kind);
+        }
+    };
+    add("profile", host::list_profiles());
+    add("screen", host::list_screens());
+    add("scenario", host::list_scripts());
+    std::vector<std::string_view> names;
+    for (const auto& [name, kind] : known) {
+        names.emplace_back(name);
+    }
+    const std::string_view hit = behaviour::nearest(file, names);
+    const auto row = std::find_if(known.begin(), known.end(), [&](const auto& one) { return one.first == hit; });
+    return row == known.end() ? std::string() : "the " + row->second + " " + row->first;
+}
+
 }  // namespace
 
 CheckedFile check_file(const std::string& file) {
@@ -125,6 +161,7 @@ CheckedFile check_file(const std::string& file) {
     const auto source = find(file);
     if (!source) {
         out.readable = false;
+        out.nearest = nearest_name(file);
         return out;
     }
     try {

@@ -30,5 +30,9 @@ void add_describe(CLI::App& app, ExitCode& exit);
 void add_sliced(CLI::App& app, ExitCode& exit);
 void add_ports(CLI::App& app, ExitCode& exit);
 void add_profiles(CLI::App& app, ExitCode& exit);
+/// `manual` and `completion`.
+void add_manual(CLI::App& app, ExitCode& exit);
+/// `new`: a small profile, screen or scenario to start from.
+void add_new(CLI::App& app, ExitCode& exit);
 
 }  // namespace fauxboard::tools

@@ -4,17 +4,22 @@
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
+#include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "emulator/behaviour/nearest.h"
+#include "emulator/host/profile_files.h"
+#include "tools/command_tree.h"
 #include "tools/commands.h"
+#include "tools/help_formatter.h"
+#include "tools/report.h"
+#include "tools/version.h"
 
 namespace fauxboard::tools {
 namespace {
@@ -57,31 +62,19 @@ void fill_standard_descriptors() {
     }
 }
 
-/// CLI11 only says that a subcommand is required.
-bool is_unknown_command(const CLI::App& app, int argc, char** argv) {
-    if (argc < 2 || argv[1][0] == '-') {
-        return false;
+/// A folder that is not there helps nobody, and whoever named it should know.
+void warn_of_profile_folders() {
+    for (const std::filesystem::path& folder : host::missing_profile_folders()) {
+        complain({}, ExitCode::ok,
+                 "FAUXBOARD_PROFILES names " + folder.string() + ", which is no folder; it is passed over");
     }
-    std::vector<std::string_view> names;
-    std::string known;
-    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
-        if (command->get_name() == argv[1]) {
-            return false;
-        }
-        names.emplace_back(command->get_name());
-        known += ' ' + command->get_name();
-    }
-    const std::string nearest(behaviour::nearest(argv[1], names));
-    const std::string hint = nearest.empty() ? "" : "; did you mean '" + nearest + "'?";
-    std::fprintf(stderr, "fauxboard: there is no command '%s'; known:%s%s\n", argv[1], known.c_str(),
-                 hint.c_str());
-    return true;
 }
 
 int run_app(int argc, char** argv) {
     CLI::App app{what_it_is, "fauxboard"};
     ExitCode exit = ExitCode::ok;
-    app.set_version_flag("--version", "fauxboard " FAUXBOARD_VERSION);
+    app.formatter(std::make_shared<HelpFormatter>());  // first, since the subcommands inherit it
+    app.set_version_flag("--version", version_text);
     app.require_subcommand(1);
     add_run(app, exit);
     add_send(app, exit);
@@ -95,8 +88,13 @@ int run_app(int argc, char** argv) {
     add_sliced(app, exit);
     add_ports(app, exit);
     add_profiles(app, exit);
+    add_new(app, exit);
+    add_manual(app, exit);
     app.footer(examples);  // last, since the subcommands made before inherit none of it
-    if (is_unknown_command(app, argc, argv)) {
+    warn_of_profile_folders();
+    const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+    if (const std::string wrong = unknown_word(app, words); !wrong.empty()) {
+        complain({}, ExitCode::usage, wrong);
         return static_cast<int>(ExitCode::usage);
     }
     try {

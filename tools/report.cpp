@@ -15,7 +15,7 @@ void write(int fd, std::string_view text) {
 }  // namespace
 
 ExitCode complain(std::string_view command, ExitCode code, std::string_view sentence) {
-    write(STDERR_FILENO, fmt::format("fauxboard {}: {}\n", command, sentence));
+    write(STDERR_FILENO, fmt::format("fauxboard{}{}: {}\n", command.empty() ? "" : " ", command, sentence));
     return code;
 }
 

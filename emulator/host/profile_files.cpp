@@ -50,9 +50,8 @@ std::optional<behaviour::SourceText> find(std::string_view name, std::string_vie
     return std::nullopt;
 }
 
-}  // namespace
-
-std::vector<fs::path> profile_folders() {
+/// The folders of FAUXBOARD_PROFILES, as they are named there.
+std::vector<fs::path> named_folders() {
     std::vector<fs::path> folders;
     if (const char* list = std::getenv("FAUXBOARD_PROFILES"); list != nullptr) {
         std::string_view rest(list);
@@ -64,8 +63,30 @@ std::vector<fs::path> profile_folders() {
             rest.remove_prefix(std::min(colon + 1, rest.size()));
         }
     }
-    folders.emplace_back(FAUXBOARD_SOURCE_PROFILES);
-    folders.emplace_back(FAUXBOARD_INSTALLED_PROFILES);
+    return folders;
+}
+
+}  // namespace
+
+std::vector<fs::path> profile_folders() {
+    std::vector<fs::path> folders = named_folders();
+    std::error_code error;
+    const fs::path program = fs::read_symlink("/proc/self/exe", error);
+    const fs::path beside = (program.parent_path() / FAUXBOARD_PROFILES_FROM_PROGRAM).lexically_normal();
+    for (const fs::path& folder : {beside, fs::path(FAUXBOARD_SOURCE_PROFILES)}) {
+        if (fs::is_directory(folder, error)) {
+            folders.push_back(folder);
+        }
+    }
+    return folders;
+}
+
+std::vector<fs::path> missing_profile_folders() {
+    std::vector<fs::path> folders = named_folders();
+    std::erase_if(folders, [](const fs::path& folder) {
+        std::error_code error;
+        return fs::is_directory(folder, error);
+    });
     return folders;
 }
 

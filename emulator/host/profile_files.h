@@ -11,8 +11,11 @@
 namespace fauxboard::host {
 
 /// Where profiles are looked for by name, first hit wins: the folders of the environment variable
-/// FAUXBOARD_PROFILES (parted by ':'), the folder the program was built from, the folder it was installed to.
+/// FAUXBOARD_PROFILES (parted by ':'), what was installed with the program (found from where the program lies, so the
+/// installed tree can be moved), the folder it was built from.
 std::vector<std::filesystem::path> profile_folders();
+/// Those that FAUXBOARD_PROFILES names and that are no folders.
+std::vector<std::filesystem::path> missing_profile_folders();
 
 /// Reads profiles from files. A name with a slash or ending in ".json" is a path (relative to the file that
 /// extends it, or to the current folder); any other is looked for beside the extending file and in

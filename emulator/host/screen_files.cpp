@@ -11,13 +11,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::optional<behaviour::SourceText> find(std::string_view name) {
+std::optional<behaviour::SourceText> find(std::string_view name, std::string_view from) {
     if (name.find('/') != std::string_view::npos || name.ends_with(".json")) {
-        return profile_finder()(name, {});
+        return profile_finder()(name, from);
+    }
+    const std::string file = std::string(name) + ".json";
+    if (!from.empty()) {
+        if (auto found = profile_finder()((fs::path(from).parent_path() / file).string(), {})) {
+            return found;
+        }
     }
     for (const fs::path& folder : profile_folders()) {
-        const fs::path file = folder / "screens" / (std::string(name) + ".json");
-        if (auto found = profile_finder()(file.string(), {})) {
+        if (auto found = profile_finder()((folder / "screens" / file).string(), {})) {
             return found;
         }
     }
@@ -26,9 +31,13 @@ std::optional<behaviour::SourceText> find(std::string_view name) {
 
 }  // namespace
 
+behaviour::SourceFinder screen_finder() {
+    return find;
+}
+
 std::shared_ptr<const screen::ScreenProfile> load_screen_by_name(std::string_view name) {
-    if (const auto source = find(name)) {
-        return screen::load_screen(*source, profile_finder());
+    if (const auto source = find(name, {})) {
+        return screen::load_screen(*source, find);
     }
     behaviour::Problem problem;
     problem.file = std::string(name);

@@ -13,6 +13,9 @@ namespace fauxboard::host {
 /// behaviour::ProfileError, also when there is no such file; then the names that exist are told.
 std::shared_ptr<const screen::ScreenProfile> load_screen_by_name(std::string_view name);
 
+/// Reads screens from files: as profile_finder() does, but names are those of screens.
+behaviour::SourceFinder screen_finder();
+
 /// All screens in the folders, by name.
 std::vector<ProfileEntry> list_screens();
 
