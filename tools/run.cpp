@@ -18,17 +18,20 @@
 #include "emulator/host/json_log.h"
 #include "emulator/host/line_log.h"
 #include "emulator/host/live_board.h"
+#include "emulator/host/live_target.h"
 #include "emulator/host/network_line.h"
 #include "emulator/host/profile_files.h"
 #include "emulator/host/profile_watch.h"
 #include "emulator/host/recorder.h"
 #include "emulator/host/screen_plug.h"
+#include "emulator/host/screen_files.h"
 #include "emulator/host/script_host.h"
 #include "emulator/link/event_loop.h"
 #include "emulator/link/host_error.h"
 #include "emulator/link/ports.h"
 #include "emulator/link/udp_socket.h"
 #include "emulator/machine/memory_volume.h"
+#include "emulator/panel/panel.h"
 #include "tools/commands.h"
 #include "tools/report.h"
 #include "tools/run_options.h"
@@ -72,7 +75,9 @@ class Run {
     void open_script();
     ExitCode outcome();
     std::unique_ptr<link::Link> make_host_link();
+    void open_target();
     void open_control();
+    void open_panel();
     void open_network();
     void say_ready();
     void say(board::Level level, std::string_view text);
@@ -104,7 +109,9 @@ class Run {
     std::optional<host::LiveBoard> live_;
     std::unique_ptr<link::UdpSocket> udp_;
     std::optional<host::NetworkLine> network_;
+    std::optional<host::LiveTarget> target_;  ///< for control channel and panel
     std::optional<host::ControlServer> control_;
+    std::optional<panel::Panel> panel_;
     std::optional<host::ScriptHost> script_;
     link::Signals signals_;
     host::ProfileWatch watch_;
@@ -193,15 +200,33 @@ void Run::set_up_disks(machine::Services& services) {
     }
 }
 
-void Run::open_control() {
-    if (options_.control.empty()) {
+/// What control channel and panel have in common: the board as those see it who reach into it.
+void Run::open_target() {
+    if (options_.control.empty() && !options_.web) {
         return;
     }
-    control_.emplace(
-        host::ControlServer::Parts{loop_, *board_, *live_, *clock_, *link_, &*link_, [this] { loop_.stop(); },
-                                   [this](std::string_view text) { say(board::Level::info, text); }});
-    observers_.add(*control_);
-    control_->open(options_.control);
+    const bool panel = options_.web.has_value();
+    target_.emplace(host::LiveTarget::Parts{loop_, *board_, *live_, *clock_, *link_, &*link_, [this] { loop_.stop(); },
+                                            options_.speed.max ? 0 : options_.speed.factor,
+                                            panel && !plug_ ? host::screen_of(*profile_) : nullptr});
+    if (plug_) {
+        target_->show(*plug_);
+    }
+    observers_.add(*target_);
+    link_->on_deed([this](const fault::Deed& deed) { target_->on_spoiled(deed); });
+}
+
+void Run::open_control() {
+    if (!options_.control.empty()) {
+        control_.emplace(loop_, target_->hub(), [this](std::string_view text) { say(board::Level::info, text); });
+        control_->open(options_.control);
+    }
+}
+
+void Run::open_panel() {
+    if (options_.web) {
+        panel_.emplace(loop_, *options_.web, std::vector{panel::Panel::Shown{profile_->name, *target_}});
+    }
 }
 
 void Run::open_script() {
@@ -213,6 +238,9 @@ void Run::open_script() {
                                 [this](std::string_view text) { say(board::Level::info, text); }},
         scenario_, options_.speed);
     observers_.add(*script_);
+    if (target_) {
+        target_->show(script_->player());
+    }
 }
 
 /// How the scenario ended; without one all is well.
@@ -254,6 +282,9 @@ void Run::say_ready() {
     if (control_) {
         ready["control"] = options_.control;
     }
+    if (panel_) {
+        ready["web"] = panel_->address();
+    }
     if (udp_) {
         ready["udp"] = udp_->path();
     }
@@ -263,9 +294,10 @@ void Run::say_ready() {
     }
     err_.write(
         fmt::format("This is fauxboard, an emulator: there is no real printer here.\n"
-                    "{} on {}{}. Ctrl-C ends it.\n",
+                    "{} on {}{}. Ctrl-C ends it.\n{}",
                     profile_->title.empty() ? profile_->name : profile_->title, link_->describe(),
-                    host_link_ ? ", its USB port on " + host_link_->describe() : std::string()));
+                    host_link_ ? ", its USB port on " + host_link_->describe() : std::string(),
+                    panel_ ? "To look at it, open " + panel_->address() + "\n" : std::string()));
 }
 
 void Run::reload() {
@@ -274,8 +306,8 @@ void Run::reload() {
         watch_.watch(profile->files);
         profile_ = profile;
         live_->reload(std::move(profile));
-        if (control_) {
-            control_->on_reload();
+        if (target_) {
+            target_->on_reload();
         }
         say(board::Level::info, "the changed profile is in force");
     } catch (const behaviour::ProfileError& error) {
@@ -314,6 +346,7 @@ void Run::on_signal(int number) {
 
 ExitCode Run::operator()() {
     set_up();
+    open_target();
     open_control();
     open_script();
     open_network();
@@ -322,6 +355,7 @@ ExitCode Run::operator()() {
         host_link_ = make_host_link();
         host_link_->open(live_->attach(board::Channel::host, *host_link_));
     }
+    open_panel();
     say_ready();
     if (options_.reload && !scenario_) {  // which was checked against this one
         watch_.watch(profile_->files);
@@ -344,6 +378,10 @@ ExitCode Run::operator()() {
         script_->start();
     }
     clock_->run();
+    if (target_) {
+        target_->on_end();
+    }
+    panel_.reset();
     if (control_) {
         control_->close();
     }

@@ -126,6 +126,14 @@ void declare_talk(CLI::App& command, RunOptions& options) {
         .add_option("--control", options.control,
                     "Open a control channel, apart from the line: a Unix socket for `fauxboard ctl`")
         ->type_name("PATH");
+    command
+        .add_option_function<std::string>(
+            "--web", [&options](const std::string& where) { options.web = where.empty() ? "127.0.0.1:0" : where; },
+            "Show the board in a browser; the address is told. Of this computer alone, on a free port, unless you say "
+            "otherwise")
+        ->type_name("[HOST:PORT]")
+        ->expected(0, 1)
+        ->default_str("");
     command.add_flag("--json", options.json, "The log as JSON lines on stdout, instead of text on stderr");
     CLI::Option* verbose = command.add_flag_callback(
         "-v,--verbose", [&options] { options.detail = host::Detail::verbose; }, "Log all there is");
