@@ -6,6 +6,8 @@
 
 #include "emulator/board/board.h"
 #include "emulator/control/session.h"
+#include "emulator/fault/fault_line.h"
+#include "protocol/catalogue.h"
 
 namespace fauxboard::control {
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "emulator/control/session.h"
+#include "emulator/link/link.h"
 #include "emulator/link/socket_io.h"
 
 namespace fauxboard::host {

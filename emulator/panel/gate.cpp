@@ -81,6 +81,12 @@ Refusal Gate::judge(const Head& head) const {
     return head.method == "GET" || head.method == "POST" ? Refusal::none : Refusal::method;
 }
 
+bool is_token(std::string_view text) {
+    constexpr std::string_view allowed = "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ-_";
+    return text.size() >= shortest_token && text.size() <= longest_token &&
+           text.find_first_not_of(allowed) == std::string_view::npos;
+}
+
 std::string make_token() {
     std::array<unsigned char, 16> bytes{};
     if (getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) {

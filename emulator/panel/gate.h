@@ -49,6 +49,11 @@ class Gate {
     std::uint16_t port_;
 };
 
+inline constexpr std::size_t shortest_token = 12;
+inline constexpr std::size_t longest_token = 64;
+/// Letters, digits, - and _, not too few and not too many.
+bool is_token(std::string_view text);
+
 /// 128 bits of chance as hexadecimal digits. Throws std::runtime_error when the system has none.
 std::string make_token();
 

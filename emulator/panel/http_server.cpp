@@ -150,9 +150,8 @@ struct HttpServer::Callbacks {
     }
 };
 
-HttpServer::HttpServer(link::EventLoop& loop, const std::string& host_port, HttpHandler& handler)
-    : loop_(loop),
-      handler_(handler),
+HttpServer::HttpServer(link::EventLoop& loop, const std::string& where, HttpHandler& handler)
+    : handler_(handler),
       watch_(loop, [this] { run(); }),
       due_(loop, [this] { run(); }),
       pause_(loop,
@@ -168,9 +167,16 @@ HttpServer::HttpServer(link::EventLoop& loop, const std::string& host_port, Http
           alive_.after(sign_of_life);
           run();
       }) {
-    link::ListeningSocket listening = link::listen_tcp(host_port);
+    const std::size_t slash = where.find('/');
+    std::string token = slash == std::string::npos ? make_token() : where.substr(slash + 1);
+    if (!is_token(token)) {
+        throw link::LinkError(fmt::format("\"{}\" cannot be the secret part of an address; give {} to {} letters and digits, or "
+                                          "none, and one is made.",
+                                          token, shortest_token, longest_token));
+    }
+    link::ListeningSocket listening = link::listen_tcp(where.substr(0, slash));
     where_ = listening.text;
-    gate_.emplace(make_token(), listening.host, listening.port);
+    gate_.emplace(std::move(token), listening.host, listening.port);
     const std::array options{
         MHD_OptionItem{MHD_OPTION_EXTERNAL_LOGGER, reinterpret_cast<intptr_t>(&Callbacks::log), nullptr},
         MHD_OptionItem{MHD_OPTION_LISTEN_SOCKET, listening.fd.get(), nullptr},

@@ -114,8 +114,8 @@ class Panel::Shelf final : public Stream {
     bool due_ = true;
 };
 
-Panel::Panel(link::EventLoop& loop, const std::string& host_port, std::vector<Shown> boards)
-    : loop_(loop), boards_(std::move(boards)), server_(std::make_unique<HttpServer>(loop, host_port, *this)) {}
+Panel::Panel(link::EventLoop& loop, const std::string& where, std::vector<Shown> boards)
+    : loop_(loop), boards_(std::move(boards)), server_(new HttpServer(loop, where, *this)) {}
 
 Panel::~Panel() = default;
 

@@ -29,7 +29,7 @@ class Panel final : private HttpHandler {
         host::LiveTarget& target;
     };
     /// `loop` and the targets outlive this. Throws link::LinkError when it cannot listen; see HttpServer.
-    Panel(link::EventLoop& loop, const std::string& host_port, std::vector<Shown> boards);
+    Panel(link::EventLoop& loop, const std::string& where, std::vector<Shown> boards);
     ~Panel() override;
 
     /// "http://127.0.0.1:4321/TOKEN/".
