@@ -83,10 +83,9 @@ void BoardUnit::add_faults() {
         const fault::FaultSpec spec = fault::fault_from_text(text);
         if (!fault::is_for_printer(spec)) {
             link_->add(spec);
-        } else if (board_->machine().breakdowns.add(SimTime{0}, fault::to_request(spec)) == 0) {
-            throw fault::FaultSpecError(
-                {fmt::format("fault \"{}\": too many faults of the printer; at most {}", text,
-                             machine::Breakdowns::most)});
+        } else if (board_->machine().faults.add(SimTime{0}, fault::to_request(spec)) == 0) {
+            throw fault::FaultSpecError({fmt::format(
+                "fault \"{}\": {}", text, board_->machine().faults.refusal(*spec.kind->printer))});
         }
     }
 }
@@ -208,8 +207,8 @@ std::string BoardUnit::summary() const {
     for (const fault::FaultStatus& status : link_->list()) {
         out += host::fault_sentence(status) + "\n";
     }
-    for (const machine::Breakdown& breakdown : board_->machine().breakdowns.list()) {
-        out += fault::breakdown_sentence(breakdown) + "\n";
+    for (const machine::Fault& broken : board_->machine().faults.list()) {
+        out += fault::printer_fault_sentence(broken) + "\n";
     }
     return out;
 }

@@ -45,7 +45,7 @@ void LiveTarget::on_end() {
 }
 
 std::size_t LiveTarget::faults_in_force() const {
-    return (parts_.faults != nullptr ? parts_.faults->list().size() : 0) + parts_.board.machine().breakdowns.list().size();
+    return (parts_.faults != nullptr ? parts_.faults->list().size() : 0) + parts_.board.machine().faults.list().size();
 }
 
 // What passes.

@@ -70,6 +70,7 @@ function open_view() {
         if (board) board.close();
         say(title, boards[at.board].title || boards[at.board].profile);
         board = follow(new Board(at.board));
+        window.board = board;  // for the browser's console, and tests
         return;  // the view opens when it has begun
     }
     if (!board.words) return;
@@ -87,7 +88,7 @@ function follow(made) {
     made.on('begin', () => {
         show(gone, false);
         document.body.classList.remove('lost');
-        say(title, made.status.title || made.status.profile);
+        say(title, (boards.length > 1 ? boards[made.number].name + ' · ' : '') + (made.status.title || made.status.profile));
         document.title = (made.status.title || made.status.profile) + ' · fauxboard';
         draw_line();
         open_view();

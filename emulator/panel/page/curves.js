@@ -40,7 +40,7 @@ export function mount(root, board, {small = false} = {}) {
             by_unit.get(unit).push(column);
         }
         const groups = [...by_unit.entries()];
-        charts = (small ? groups.slice(0, 2) : groups).map(([unit, group]) => chart(unit, group));
+        charts = (small ? groups.slice(0, 1) : groups).map(([unit, group]) => chart(unit, group));
         if (charts.length === 0) area.append(h('p', {class: 'empty'}, 'This machine has nothing that draws a curve.'));
         add(board.state);
         draw();
@@ -57,7 +57,7 @@ export function mount(root, board, {small = false} = {}) {
                 made.shown[i] = !made.shown[i];
                 event.currentTarget.setAttribute('aria-pressed', String(made.shown[i]));
                 made.graph?.setVisibility(i, made.shown[i]);
-            }}, column.path, ' ', column.value));
+            }}, short_name(column.path), ' ', column.value));
         });
         return made;
     }
@@ -161,6 +161,11 @@ export function mount(root, board, {small = false} = {}) {
         window.removeEventListener('themechange', recolour);
         charts.forEach(made => made.graph?.destroy());
     };
+}
+
+/** "heaters.nozzle.true" is the nozzle, "heaters.nozzle.target" its target. */
+function short_name(path) {
+    return path.slice(path.indexOf('.') + 1).replace(/\.true$/, '').replaceAll('.', ' ');
 }
 
 function number(value) {

@@ -26,8 +26,8 @@ function of(value, board, totals) {
 export function mount(root, board, {small = false} = {}) {
     const bar = h('progress', {max: 100, value: 0, 'aria-label': 'Progress'});
     const list = h('dl', {class: 'facts'});
-    const picture = h('div', {class: 'picture'});
-    root.append(h('div', {class: 'print-head'}, bar, list), picture);
+    const picture = h('div', {class: small ? 'picture' : 'picture card'});
+    root.append(h('div', {class: small ? 'print-head' : 'print-head card'}, bar, list), picture);
     const rows = [];
     for (const [name, paths, word] of facts) {
         const path = paths.find(each => board.state[each] !== undefined && board.state[each] !== null);
@@ -45,7 +45,7 @@ export function mount(root, board, {small = false} = {}) {
         bar.value = progress || 0;
     }
     update();
-    const draw = drawer(picture, small);
+    const draw = drawer(picture);
     const stops = [board.on('state', update), board.on('drawing', message => draw(message.drawing))];
     const topic = board.subscribe('drawing');
     board.op('drawing').then(answer => draw(answer.drawing), () => {});
@@ -56,7 +56,7 @@ export function mount(root, board, {small = false} = {}) {
 }
 
 /** Draws what the board draws: a way in the plane, or a picture. */
-function drawer(root, small) {
+function drawer(root) {
     let layers = [], svg = null, image = null, size = '';
     const note = h('p', {class: 'quiet'});
     root.append(note);
@@ -65,7 +65,7 @@ function drawer(root, small) {
     function start_way(way) {
         const [width, depth] = way.size;
         svg?.remove();
-        svg = s('svg', {class: 'bed', viewBox: '0 0 ' + width + ' ' + depth, role: 'img', 'aria-label': 'Bed from above'},
+        svg = s('svg', {class: 'bed', viewBox: '-2 -2 ' + (width + 4) + ' ' + (depth + 4), role: 'img', 'aria-label': 'Bed from above'},
             s('rect', {class: 'plate', x: 0, y: 0, width, height: depth, rx: 4}), grid(width, depth),
             s('path', {class: 'below'}), s('path', {class: 'way'}), s('circle', {class: 'head', r: Math.max(width, depth) / 80, cx: 0, cy: depth}));
         root.prepend(svg);
@@ -94,14 +94,24 @@ function drawer(root, small) {
                                 : 'Bed ' + way.size.join(' × ') + ' mm. Nothing has been extruded yet.');
     }
 
+    /** Four greys a byte, the darkest bits first. */
     function draw_picture(picture) {
         if (!image) {
-            image = h('img', {class: 'layer', alt: ''});
+            image = h('canvas', {class: 'layer', role: 'img'});
             root.prepend(image);
         }
         show(image, true);
-        if (picture.png) image.src = 'data:image/png;base64,' + picture.png;
-        image.alt = picture.words;
+        if (picture.greys) {
+            const bytes = atob(picture.greys), pixels = new ImageData(picture.width, picture.height);
+            for (let i = 0; i < picture.width * picture.height; ++i) {
+                const grey = (bytes.charCodeAt(i >> 2) >> (i % 4 * 2) & 3) * 85;
+                pixels.data.set([grey, grey, grey, 255], i * 4);
+            }
+            image.width = picture.width;
+            image.height = picture.height;
+            image.getContext('2d').putImageData(pixels, 0, 0);
+        }
+        image.setAttribute('aria-label', picture.words);
         image.classList.toggle('lit', Boolean(picture.lit));
         say(note, picture.words);
     }

@@ -10,7 +10,8 @@ export function mount(root, board, {small = false} = {}) {
     const note = h('p', {class: 'quiet'});
     const fault = h('p', {class: 'error', role: 'alert', hidden: true});
     const sent = h('p', {class: 'sent', 'aria-live': 'polite'});
-    root.append(h('div', {class: 'bezel'}, face), fault, small ? null : sent, note);
+    root.append(h('div', {class: 'bezel'}, face), fault);
+    if (!small) root.append(sent, note);
     let drawn = '';
 
     async function press(button, row, input) {
@@ -44,14 +45,15 @@ export function mount(root, board, {small = false} = {}) {
         if (text === drawn) return;
         if (face.contains(document.activeElement) && document.activeElement.tagName === 'INPUT' && page_of(drawn) === view.page) return;
         drawn = text;
+        const everywhere = view.buttons.filter(button => button.everywhere);
         const focus = face.contains(document.activeElement) ? document.activeElement.title : null;
         refill(face,
             h('div', {class: 'top'}, view.title),
             h('div', {class: 'lines'}, view.lines.map(line => h('p', null, line))),
             h('div', {class: 'keys'}, view.buttons.filter(button => !button.everywhere).map(control)),
-            h('div', {class: 'keys foot'}, view.buttons.filter(button => button.everywhere).map(control)));
+            everywhere.length ? h('div', {class: 'keys foot'}, everywhere.map(control)) : null);
         if (focus) for (const key of face.querySelectorAll('button')) if (key.title === focus) key.focus();
-        say(note, small ? '' : view.note);
+        say(note, view.note || '');
     }
 
     const end_screen = board.on('screen', message => draw(message.screen));
