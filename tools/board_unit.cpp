@@ -117,7 +117,8 @@ void BoardUnit::open_target(std::function<void()> quit) {
     observers_.add(*target_);
     link_->on_deed([this](const fault::Deed& deed) { target_->on_spoiled(deed); });
     if (!options_.control.empty()) {
-        control_.emplace(loop_, target_->hub(), [this](std::string_view text) { say(board::Level::info, text); });
+        control_.emplace(loop_, target_->hub(),
+                         [this](std::string_view text) { say(board::Level::info, text); });
         control_->open(options_.control);
     }
 }
@@ -159,7 +160,8 @@ nlohmann::ordered_json BoardUnit::ready() const {
 }
 
 std::string BoardUnit::where() const {
-    return " on " + link_->describe() + (host_link_ ? ", its USB port on " + host_link_->describe() : std::string());
+    return " on " + link_->describe() +
+           (host_link_ ? ", its USB port on " + host_link_->describe() : std::string());
 }
 
 void BoardUnit::start(SimTime duration, std::function<void()> on_end) {
@@ -196,14 +198,14 @@ void BoardUnit::close() {
 std::string BoardUnit::summary() const {
     const board::Counters& c = board_->counters();
     const link::LinkStats& l = link_->stats();
-    std::string out =
-        fmt::format("After {:.3f} s: {} lines heard, {} said, on all lines. Bad frames {}, too long {}, "
-                    "unknown codes {}, "
-                    "no rule {}, requests lost {}, messages lost {}, cut {}. Bytes of the main line: in {}, "
-                    "out {}, lost {}.\n",
-                    machine::to_seconds(live_->now()), c.lines_received, c.lines_sent, c.bad_frames,
-                    board_->lines_too_long(), c.unknown_codes, c.unmatched, c.requests_lost, c.messages_lost,
-                    c.lines_cut, l.bytes_in, l.bytes_out, l.bytes_lost);
+    std::string out = fmt::format(
+        "After {:.3f} s: {} lines heard, {} said, on all lines. Bad frames {}, too long {}, "
+        "unknown codes {}, "
+        "no rule {}, requests lost {}, messages lost {}, cut {}. Bytes of the main line: in {}, "
+        "out {}, lost {}.\n",
+        machine::to_seconds(live_->now()), c.lines_received, c.lines_sent, c.bad_frames,
+        board_->lines_too_long(), c.unknown_codes, c.unmatched, c.requests_lost, c.messages_lost, c.lines_cut,
+        l.bytes_in, l.bytes_out, l.bytes_lost);
     for (const fault::FaultStatus& status : link_->list()) {
         out += host::fault_sentence(status) + "\n";
     }

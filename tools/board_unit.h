@@ -25,14 +25,15 @@
 
 namespace fauxboard::tools {
 
-/// One board with its lines, disks, clock and control channel: what a run has once, and a fleet many times. Use:
-/// set_up(), perhaps open_target(), open(), start(); close() at the end.
+/// One board with its lines, disks, clock and control channel: what a run has once, and a fleet many times.
+/// Use: set_up(), perhaps open_target(), open(), start(); close() at the end.
 class BoardUnit {
   public:
-    /// All outlive this; `scenario` may be null. `observers` are told what passes; those that are to see it from
-    /// the beginning are among them by then.
-    BoardUnit(link::EventLoop& loop, const RunOptions& options, std::shared_ptr<const behaviour::Profile> profile,
-              const script::Scenario* scenario, host::Observers& observers);
+    /// All outlive this; `scenario` may be null. `observers` are told what passes; those that are to see it
+    /// from the beginning are among them by then.
+    BoardUnit(link::EventLoop& loop, const RunOptions& options,
+              std::shared_ptr<const behaviour::Profile> profile, const script::Scenario* scenario,
+              host::Observers& observers);
     BoardUnit(const BoardUnit&) = delete;
     BoardUnit& operator=(const BoardUnit&) = delete;
 

@@ -92,7 +92,8 @@ class FleetRun {
     /// One board with those who look at it.
     struct Member {
         Member(FleetRun& run, const FleetBoard& board, std::shared_ptr<const behaviour::Profile> profile)
-            : troubles(run.err_, board.name), unit(run.loop_, board.options, std::move(profile), nullptr, observers) {
+            : troubles(run.err_, board.name),
+              unit(run.loop_, board.options, std::move(profile), nullptr, observers) {
             if (!run.arguments_.quiet) observers.add(troubles);
         }
         host::Observers observers;
@@ -125,10 +126,10 @@ class FleetRun {
             ready["web"] = panel_->address();
         }
         out_.write("ready " + ready.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) + "\n");
-        err_.write(fmt::format("This is fauxboard, an emulator: there are no real printers here.\n"
-                               "{} boards. Ctrl-C ends them.\n{}",
-                               members_.size(),
-                               panel_ ? "To look at them, open " + panel_->address() + "\n" : std::string()));
+        err_.write(fmt::format(
+            "This is fauxboard, an emulator: there are no real printers here.\n"
+            "{} boards. Ctrl-C ends them.\n{}",
+            members_.size(), panel_ ? "To look at them, open " + panel_->address() + "\n" : std::string()));
     }
 
     const FleetArguments& arguments_;
@@ -136,7 +137,8 @@ class FleetRun {
     link::EventLoop loop_;
     host::TextOutput out_;
     host::TextOutput err_;
-    std::map<std::string, std::shared_ptr<const behaviour::Profile>> profiles_;  ///< by what the file calls them
+    std::map<std::string, std::shared_ptr<const behaviour::Profile>>
+        profiles_;  ///< by what the file calls them
     std::vector<std::unique_ptr<Member>> members_;
     std::optional<panel::Panel> panel_;
     link::Signals signals_;
@@ -169,9 +171,12 @@ ExitCode fleet(const FleetArguments& arguments) {
 }  // namespace
 
 void add_fleet(CLI::App& app, ExitCode& exit) {
-    CLI::App* command = app.add_subcommand("fleet", "Be many boards in one process, each on lines of its own");
+    CLI::App* command =
+        app.add_subcommand("fleet", "Be many boards in one process, each on lines of its own");
     const auto arguments = std::make_shared<FleetArguments>();
-    command->add_option("file", arguments->file, "The boards, as JSON: {\"boards\": [{\"profile\": ..., \"count\": 20}]}")
+    command
+        ->add_option("file", arguments->file,
+                     "The boards, as JSON: {\"boards\": [{\"profile\": ..., \"count\": 20}]}")
         ->type_name("FILE.json")
         ->required();
     add_web(*command, arguments->web);

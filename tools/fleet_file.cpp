@@ -88,10 +88,11 @@ class Reader {
             std::string& text = each.of(options);
             group.text(each.key, text);
             if (each.own && count > 1 && !text.empty() && text.find(number_mark) == std::string::npos) {
-                findings_.add(group.pointer(each.key),
-                              fmt::format("\"{}\" cannot be shared by {} boards; put {{n}} in it, which is the number "
-                                          "of each",
-                                          text, count));
+                findings_.add(
+                    group.pointer(each.key),
+                    fmt::format("\"{}\" cannot be shared by {} boards; put {{n}} in it, which is the number "
+                                "of each",
+                                text, count));
             }
         }
         options.host.pty = !options.host.pty_name.empty();
@@ -134,7 +135,8 @@ class Reader {
             findings_.add(pointer, "a board has one main line: expected one of pty, port and tcp");
         }
         if (!options.host.pty_name.empty() + !options.host.port.empty() + !options.host.tcp.empty() > 1) {
-            findings_.add(pointer, "a board has one USB port: expected one of host_pty, host_port and host_tcp");
+            findings_.add(pointer,
+                          "a board has one USB port: expected one of host_pty, host_port and host_tcp");
         }
     }
 
@@ -151,8 +153,9 @@ class Reader {
             const std::string place = fmt::format("{}/{}", group.pointer("faults"), i);
             try {
                 (void)fault::fault_from_json((*list)[i]);
-                options.faults.push_back((*list)[i].is_string() ? (*list)[i].get<std::string>()
-                                                                : fault::fault_to_text(fault::fault_from_json((*list)[i])));
+                options.faults.push_back((*list)[i].is_string()
+                                             ? (*list)[i].get<std::string>()
+                                             : fault::fault_to_text(fault::fault_from_json((*list)[i])));
             } catch (const fault::FaultSpecError& error) {
                 findings_.add(place, error.what());
             }

@@ -19,8 +19,9 @@ struct Fleet {
     std::vector<FleetBoard> boards;
 };
 
-/// Reads {"boards": [{"profile", "count", "name", ...}, ...]}; see the guide in tools/guides. `{n}` in a text is the
-/// number of the board within its group, from 1. Throws behaviour::ProfileError with all that is wrong.
+/// Reads {"boards": [{"profile", "count", "name", ...}, ...]}; see the guide in tools/guides. `{n}` in a text
+/// is the number of the board within its group, from 1. Throws behaviour::ProfileError with all that is
+/// wrong.
 Fleet read_fleet(const std::string& file);
 
 }  // namespace fauxboard::tools

@@ -44,7 +44,8 @@ void add_web(CLI::App& command, std::optional<std::string>& web) {
     command
         .add_option_function<std::string>(
             "--web", [&web](const std::string& where) { web = where.empty() ? "127.0.0.1:0" : where; },
-            "Show it in a browser; the address is told. For this computer alone, on a free port and with a new secret "
+            "Show it in a browser; the address is told. For this computer alone, on a free port and with a "
+            "new secret "
             "in the address, unless you say otherwise")
         ->type_name("[HOST:PORT[/SECRET]]")
         ->expected(0, 1)

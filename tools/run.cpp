@@ -39,7 +39,8 @@ class Run {
           err_(STDERR_FILENO),
           log_(err_, options.json ? host::Detail::quiet : options.detail, log_rate(options.speed)),
           json_(out_),
-          unit_(loop_, options, scenario_ ? scenario_->cast.profile : host::load_profile_by_name(options.profile),
+          unit_(loop_, options,
+                scenario_ ? scenario_->cast.profile : host::load_profile_by_name(options.profile),
                 scenario_.get(), observers_),
           signals_(loop_, {SIGINT, SIGTERM, SIGHUP}, [this](int number) { on_signal(number); }),
           watch_(loop_, [this] { reload(); }) {}
@@ -130,10 +131,11 @@ void Run::say_ready() {
         observers_.add(json_);  // not before: the ready line is the first
     }
     const behaviour::Profile& profile = *unit_.profile();
-    err_.write(fmt::format("This is fauxboard, an emulator: there is no real printer here.\n"
-                           "{}{}. Ctrl-C ends it.\n{}",
-                           profile.title.empty() ? profile.name : profile.title, unit_.where(),
-                           panel_ ? "To look at it, open " + panel_->address() + "\n" : std::string()));
+    err_.write(
+        fmt::format("This is fauxboard, an emulator: there is no real printer here.\n"
+                    "{}{}. Ctrl-C ends it.\n{}",
+                    profile.title.empty() ? profile.name : profile.title, unit_.where(),
+                    panel_ ? "To look at it, open " + panel_->address() + "\n" : std::string()));
 }
 
 void Run::watch_profile() {

@@ -64,7 +64,17 @@ struct Op {
 std::span<const Op> ops();
 
 /// What clients can be told unasked.
-enum class TopicId : std::uint8_t { state, traffic, notices, link, spoiled, judged, screen, scenario, drawing };
+enum class TopicId : std::uint8_t {
+    state,
+    traffic,
+    notices,
+    link,
+    spoiled,
+    judged,
+    screen,
+    scenario,
+    drawing
+};
 
 constexpr std::uint32_t bit(TopicId topic) {
     return std::uint32_t{1} << static_cast<unsigned>(topic);

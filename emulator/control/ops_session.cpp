@@ -16,21 +16,29 @@ constexpr std::array topic_table{
     Topic{TopicId::state, "state",
           "values of fields: all at first, then those that changed, looked at each `every` of virtual time",
           R"({"event": "state", "t": 12.5, "fields": {"heaters.nozzle.true": 41.7}})"},
-    Topic{TopicId::traffic, "traffic",
-          "each line of the wire, as recordings have it; one that was not taken says why; with words, if asked",
-          R"({"event": "traffic", "t": 12.5, "from": "screen", "line": "N-0 M105*10"})"},
-    Topic{TopicId::notices, 
-        "notices", "what a person wants to know: a clamped value, an unknown code, a lost message",
+    Topic{
+        TopicId::traffic, "traffic",
+        "each line of the wire, as recordings have it; one that was not taken says why; with words, if asked",
+        R"({"event": "traffic", "t": 12.5, "from": "screen", "line": "N-0 M105*10"})"},
+    Topic{
+        TopicId::notices, "notices",
+        "what a person wants to know: a clamped value, an unknown code, a lost message",
         R"({"event": "notice", "t": 12.5, "level": "warning", "text": "M9 is not in the profile; ignored"})"},
     Topic{TopicId::link, "link", "somebody came to the tested line, or left it",
           R"({"event": "link", "t": 12.5, "state": "up", "why": "somebody opened /dev/pts/5"})"},
-    Topic{TopicId::spoiled, "spoiled", "a fault of the line has acted on this line, which is told as it was before",
-          R"({"event": "spoiled", "t": 12.5, "from": "board", "line": "N-0 L7*55", "kind": "drop", "fault": 1})"},
-    Topic{TopicId::judged, "judged", "a line that a touch screen would not have taken as it was meant, and why",
-          R"({"event": "judged", "t": 12.5, "line": "N-0 L18 P26*32", "verdict": "would crash", "why": "..."})"},
-    Topic{TopicId::screen, "screen", "what the touch screen shows, each time it shows something else; as the op screen",
-          R"({"event": "screen", "t": 12.5, "screen": {"page": "Main", "title": "Main", "lines": [], "buttons": []}})"},
-    Topic{TopicId::scenario, "scenario", "how the scenario stands, each time that it gets on; as the op scenario",
+    Topic{
+        TopicId::spoiled, "spoiled",
+        "a fault of the line has acted on this line, which is told as it was before",
+        R"({"event": "spoiled", "t": 12.5, "from": "board", "line": "N-0 L7*55", "kind": "drop", "fault": 1})"},
+    Topic{
+        TopicId::judged, "judged", "a line that a touch screen would not have taken as it was meant, and why",
+        R"({"event": "judged", "t": 12.5, "line": "N-0 L18 P26*32", "verdict": "would crash", "why": "..."})"},
+    Topic{
+        TopicId::screen, "screen",
+        "what the touch screen shows, each time it shows something else; as the op screen",
+        R"({"event": "screen", "t": 12.5, "screen": {"page": "Main", "title": "Main", "lines": [], "buttons": []}})"},
+    Topic{TopicId::scenario, "scenario",
+          "how the scenario stands, each time that it gets on; as the op scenario",
           R"({"event": "scenario", "t": 12.5, "scenario": {"name": "home", "steps": [], "branches": []}})"},
     Topic{TopicId::drawing, "drawing", "what the machine draws, as it grows; as the op drawing",
           R"({"event": "drawing", "t": 12.5, "drawing": {"way": {"more": true, "layers": []}}})"},
@@ -75,7 +83,8 @@ void check_extras(const Call& call, TopicId topic) {
     }
     const Json* words = call.find("words");
     if (words != nullptr && (topic != TopicId::traffic || !words->is_boolean())) {
-        throw ControlError(ErrorCode::bad_request, "\"words\" is true or false, and for the topic traffic only.");
+        throw ControlError(ErrorCode::bad_request,
+                           "\"words\" is true or false, and for the topic traffic only.");
     }
 }
 

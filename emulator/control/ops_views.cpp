@@ -1,5 +1,5 @@
-// What people look at beside the fields: a touch screen, the talk, curves, a scenario, what the machine draws; and
-// a request as the other end of the line would say it.
+// What people look at beside the fields: a touch screen, the talk, curves, a scenario, what the machine
+// draws; and a request as the other end of the line would say it.
 
 #include <fmt/format.h>
 
@@ -34,7 +34,8 @@ Answer press(const Call& call) {
     touch.button = call.at("button").get<std::string>();
     if (const Json* row = call.find("row")) {
         if (!row->is_number_unsigned() || row->get<double>() < 1 || row->get<double>() > most_rows) {
-            throw ControlError(ErrorCode::out_of_range, fmt::format("\"row\": {}; expected 1 to {}.", row->dump(), most_rows));
+            throw ControlError(ErrorCode::out_of_range,
+                               fmt::format("\"row\": {}; expected 1 to {}.", row->dump(), most_rows));
         }
         touch.row = row->get<std::size_t>();
     }
@@ -48,10 +49,11 @@ Answer press(const Call& call) {
 std::string line_of(const Json& text) {
     auto bytes = behaviour::to_wire(text.get_ref<const std::string&>());
     if (!bytes || protocol::plain_run(*bytes) != bytes->size() || bytes->size() > protocol::max_line_bytes) {
-        throw ControlError(ErrorCode::bad_arguments,
-                           fmt::format("A request is one line of at most {} bytes: no line end, no NUL, characters up "
-                                       "to U+00FF only.",
-                                       protocol::max_line_bytes));
+        throw ControlError(
+            ErrorCode::bad_arguments,
+            fmt::format("A request is one line of at most {} bytes: no line end, no NUL, characters up "
+                        "to U+00FF only.",
+                        protocol::max_line_bytes));
     }
     return *std::move(bytes);
 }
@@ -92,16 +94,24 @@ constexpr std::array request_params{
     Param{"line", text, true, "what it says, without frame and line end: \"M105\""}};
 
 constexpr std::array table{
-    Op{"screen", "what a touch screen on the main line shows now: its page, values and buttons; null without one",
-       {}, screen},
-    Op{"press", "touches a button of that screen; answers with what it sent and what it shows then", press_params,
-       press},
-    Op{"request", "the board hears a line on its main line, as if the other end had said it", request_params, request},
+    Op{"screen",
+       "what a touch screen on the main line shows now: its page, values and buttons; null without one",
+       {},
+       screen},
+    Op{"press", "touches a button of that screen; answers with what it sent and what it shows then",
+       press_params, press},
+    Op{"request", "the board hears a line on its main line, as if the other end had said it", request_params,
+       request},
     Op{"talk", "the lines that passed last, oldest first, as the topic traffic tells them", {}, talk},
     Op{"curves", "temperatures, heights and progress over the whole run; the older, the coarser", {}, curves},
-    Op{"scenario", "the steps of the scenario that is played, and how it stands; null without one", {}, scenario},
-    Op{"drawing", "what the machine draws: the way of its head in the plane, the picture of its layer; null for none",
-       {}, drawing},
+    Op{"scenario",
+       "the steps of the scenario that is played, and how it stands; null without one",
+       {},
+       scenario},
+    Op{"drawing",
+       "what the machine draws: the way of its head in the plane, the picture of its layer; null for none",
+       {},
+       drawing},
 };
 
 }  // namespace

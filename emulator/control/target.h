@@ -21,8 +21,8 @@ struct Press {
 };
 
 /// What a run has for people to look at beside the board: a touch screen or its mirror, the lines that were
-/// said last, curves, a scenario. All in JSON as the ops of the same names answer it; null and empty where there
-/// is none. Called from inside visit().
+/// said last, curves, a scenario. All in JSON as the ops of the same names answer it; null and empty where
+/// there is none. Called from inside visit().
 class View {
   public:
     virtual ~View() = default;
@@ -30,7 +30,9 @@ class View {
     /// {"sent": [...], "screen": ...}. Throws ControlError when the button cannot be pressed.
     virtual Json press(board::Board& board, SimTime now, const Press& press);
     virtual Json talk() { return Json::array(); }
-    virtual Json curves() { return {{"series", Json::array()}, {"t", Json::array()}, {"values", Json::array()}}; }
+    virtual Json curves() {
+        return {{"series", Json::array()}, {"t", Json::array()}, {"values", Json::array()}};
+    }
     virtual Json scenario() { return nullptr; }
     virtual Json drawing(const board::Board& /*board*/, SimTime /*now*/) { return nullptr; }
 };

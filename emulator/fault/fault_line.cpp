@@ -329,7 +329,8 @@ void FaultLine::pace_from(std::size_t index, Piece piece) {
 void FaultLine::tell(const Fault& fault, std::string_view bytes) const {
     if (told_) {
         bytes.remove_prefix(std::min(bytes.find_first_not_of(LineCutter::line_ends), bytes.size()));
-        told_({fault.id, direction_, fault.spec.kind->name, bytes.substr(0, bytes.find_first_of(LineCutter::line_ends))});
+        told_({fault.id, direction_, fault.spec.kind->name,
+               bytes.substr(0, bytes.find_first_of(LineCutter::line_ends))});
     }
 }
 

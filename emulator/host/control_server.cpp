@@ -132,7 +132,8 @@ class ControlServer::Client : public std::enable_shared_from_this<Client> {
 // The server.
 // -----------------------------------------------------------------------------------------------
 
-ControlServer::ControlServer(link::EventLoop& loop, control::Hub& hub, std::function<void(std::string_view)> say)
+ControlServer::ControlServer(link::EventLoop& loop, control::Hub& hub,
+                             std::function<void(std::string_view)> say)
     : loop_(loop),
       hub_(hub),
       say_(std::move(say)),

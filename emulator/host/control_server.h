@@ -11,8 +11,8 @@
 namespace fauxboard::host {
 
 /// The control channel of one live board: a Unix socket with a line of JSON for each request and answer,
-/// apart from the tested line. What is said on it is the business of emulator/control; here are the socket and
-/// its clients.
+/// apart from the tested line. What is said on it is the business of emulator/control; here are the socket
+/// and its clients.
 class ControlServer final {
   public:
     static constexpr std::size_t most_clients = 128;

@@ -16,13 +16,14 @@ struct Rule {
     std::string_view unit;
     std::string_view ending;
 };
-constexpr std::array rules{Rule{"C", ".true"},     Rule{"C", ".target"},     Rule{"C", ".temperature"},
-                           Rule{"mm", ".z"},       Rule{"mm", ".height"},    Rule{"%", ".progress"},
+constexpr std::array rules{Rule{"C", ".true"},   Rule{"C", ".target"},  Rule{"C", ".temperature"},
+                           Rule{"mm", ".z"},     Rule{"mm", ".height"}, Rule{"%", ".progress"},
                            Rule{"%", ".percent"}};
 
 bool makes_curve(const behaviour::Field& field) {
     const bool asked_for = field.path.ends_with(".target");
-    return (field.set == nullptr || asked_for) && std::any_of(rules.begin(), rules.end(), [&](const Rule& rule) {
+    return (field.set == nullptr || asked_for) &&
+           std::any_of(rules.begin(), rules.end(), [&](const Rule& rule) {
                return field.unit == rule.unit && field.path.ends_with(rule.ending);
            });
 }

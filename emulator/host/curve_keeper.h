@@ -22,7 +22,8 @@ class CurveKeeper {
     static constexpr std::size_t most_series = 16;
     static constexpr SimTime every{1'000'000};
 
-    /// Takes one point, if it is time for one; the board is refreshed to `now`. Returns when the next one is due.
+    /// Takes one point, if it is time for one; the board is refreshed to `now`. Returns when the next one is
+    /// due.
     SimTime take(const board::Board& board, SimTime now);
     std::size_t points() const { return times_.size(); }
     /// {"series": [{"path", "unit", "help"}], "t": [...], "values": [[...], ...]}
@@ -32,7 +33,7 @@ class CurveKeeper {
     void thin();
 
     std::vector<control::Place> series_;
-    std::vector<float> times_;  ///< s
+    std::vector<float> times_;   ///< s
     std::vector<float> values_;  ///< of all series, point after point
     SimTime due_{0};
     bool chosen_ = false;

@@ -28,9 +28,8 @@ constexpr std::array looked_at{TopicId::screen, TopicId::scenario, TopicId::draw
 
 LiveTarget::LiveTarget(Parts parts)
     : parts_(std::move(parts)), hub_(*this), look_(parts_.loop, [this] { look(); }) {
-    parts_.live.follow([this](SimTime now) {
-        return std::min(hub_.on_moved(now), curves_.take(parts_.board, now));
-    });
+    parts_.live.follow(
+        [this](SimTime now) { return std::min(hub_.on_moved(now), curves_.take(parts_.board, now)); });
 }
 
 LiveTarget::~LiveTarget() {
@@ -45,7 +44,8 @@ void LiveTarget::on_end() {
 }
 
 std::size_t LiveTarget::faults_in_force() const {
-    return (parts_.faults != nullptr ? parts_.faults->list().size() : 0) + parts_.board.machine().faults.list().size();
+    return (parts_.faults != nullptr ? parts_.faults->list().size() : 0) +
+           parts_.board.machine().faults.list().size();
 }
 
 // What passes.
@@ -124,17 +124,17 @@ ScreenMirror* LiveTarget::mirror() {
     }
     mirror_used_ = parts_.live.now();
     if (!mirror_) {
-        mirror_.emplace(
-            ScreenMirror::Parts{
-                parts_.screen, parts_.clock,
-                [this](std::string_view line) {
-                    parts_.live.visit([&](board::Board& board, SimTime now) { board.hear(now, line); });
-                },
-                [this] { return parts_.link.state() != link::LinkState::up; },
-                [this](SimTime at, const screen::Judgement& judgement) {
-                    hub_.publish(TopicId::judged, at, screen::to_json(judgement));
-                }},
-            talk_.last_said());
+        mirror_.emplace(ScreenMirror::Parts{parts_.screen, parts_.clock,
+                                            [this](std::string_view line) {
+                                                parts_.live.visit([&](board::Board& board, SimTime now) {
+                                                    board.hear(now, line);
+                                                });
+                                            },
+                                            [this] { return parts_.link.state() != link::LinkState::up; },
+                                            [this](SimTime at, const screen::Judgement& judgement) {
+                                                hub_.publish(TopicId::judged, at, screen::to_json(judgement));
+                                            }},
+                        talk_.last_said());
     }
     return &*mirror_;
 }
@@ -148,10 +148,11 @@ Json LiveTarget::screen(SimTime /*now*/) {
         return nullptr;
     }
     Json face = screen::face_json(looking_on->screen().standpoint());
-    face["note"] = parts_.link.state() == link::LinkState::up
-                       ? "Looks on: shows what the board tells the screen on its line. Its buttons are requests "
-                         "of their own."
-                       : "The screen of this panel: nobody else is on the line.";
+    face["note"] =
+        parts_.link.state() == link::LinkState::up
+            ? "Looks on: shows what the board tells the screen on its line. Its buttons are requests "
+              "of their own."
+            : "The screen of this panel: nobody else is on the line.";
     return face;
 }
 

@@ -7,9 +7,9 @@
 #include <string>
 
 #include "emulator/control/hub.h"
+#include "emulator/fault/fault_control.h"
 #include "emulator/host/clock.h"
 #include "emulator/host/curve_keeper.h"
-#include "emulator/fault/fault_control.h"
 #include "emulator/host/live_board.h"
 #include "emulator/host/live_observer.h"
 #include "emulator/host/screen_mirror.h"
@@ -25,8 +25,9 @@ namespace fauxboard::host {
 
 class ScreenPlug;
 
-/// One live board as all who reach into it see it, be it through the control channel or the panel in the browser:
-/// its hub of clients, time that jumps, faults, and what people look at beside it. Is an observer of that board.
+/// One live board as all who reach into it see it, be it through the control channel or the panel in the
+/// browser: its hub of clients, time that jumps, faults, and what people look at beside it. Is an observer of
+/// that board.
 class LiveTarget final : public LiveObserver, private control::Target, private control::View {
   public:
     struct Parts {

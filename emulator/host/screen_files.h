@@ -13,8 +13,8 @@ namespace fauxboard::host {
 /// behaviour::ProfileError, also when there is no such file; then the names that exist are told.
 std::shared_ptr<const screen::ScreenProfile> load_screen_by_name(std::string_view name);
 
-/// The screen that a board of this profile is made for: the one that is called as the profile, or as one that it
-/// extends, the nearest. Null when there is none, or it cannot be read.
+/// The screen that a board of this profile is made for: the one that is called as the profile, or as one that
+/// it extends, the nearest. Null when there is none, or it cannot be read.
 std::shared_ptr<const screen::ScreenProfile> screen_of(const behaviour::Profile& profile);
 
 /// All screens in the folders, by name.

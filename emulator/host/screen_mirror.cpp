@@ -49,8 +49,8 @@ void ScreenMirror::hear(SimTime now, std::string_view line) {
     alarm_->at(now + parts_.profile->line.tick);
 }
 
-screen::PressResult ScreenMirror::press(const std::string& button, std::size_t row, std::optional<double> input,
-                                        SimTime now) {
+screen::PressResult ScreenMirror::press(const std::string& button, std::size_t row,
+                                        std::optional<double> input, SimTime now) {
     settle(now);
     screen::PressResult result = screen_.press(button, row, input, time(now));
     collect(true);

@@ -13,9 +13,9 @@
 namespace fauxboard::host {
 
 /// A virtual touch screen that looks on: it hears what the board says on its main line, whether a real screen
-/// is there or nobody, and so shows what that one shows, unless a person has turned a page there. Its buttons are
-/// requests to the board. What a screen says by itself, without being touched, it says only when it is alone on
-/// the line.
+/// is there or nobody, and so shows what that one shows, unless a person has turned a page there. Its buttons
+/// are requests to the board. What a screen says by itself, without being touched, it says only when it is
+/// alone on the line.
 class ScreenMirror {
   public:
     struct Parts {
@@ -33,9 +33,10 @@ class ScreenMirror {
 
     /// The board has put a line on its main line.
     void hear(SimTime now, std::string_view line);
-    /// As Screen::press(); `row` and `input` as in Screen::touch(), of a button of the open page. What it sends is in the result, and not with Parts::ask yet: see
-    /// take_requests().
-    screen::PressResult press(const std::string& button, std::size_t row, std::optional<double> input, SimTime now);
+    /// As Screen::press(); `row` and `input` as in Screen::touch(), of a button of the open page. What it
+    /// sends is in the result, and not with Parts::ask yet: see take_requests().
+    screen::PressResult press(const std::string& button, std::size_t row, std::optional<double> input,
+                              SimTime now);
     /// The requests that a touch has made, and forgets them.
     std::vector<std::string> take_requests();
     const screen::Screen& screen() const { return screen_; }

@@ -41,7 +41,8 @@ void TalkKeeper::add(SimTime now, std::string_view from, std::string_view line, 
 void TalkKeeper::add_said(SimTime now, std::string_view line) {
     add(now, board::own_end(board::Channel::main), line);
     const std::string_view name = kind_of(line);
-    auto kind = std::find_if(kinds_.begin(), kinds_.end(), [&](const Kind& each) { return each.name == name; });
+    auto kind =
+        std::find_if(kinds_.begin(), kinds_.end(), [&](const Kind& each) { return each.name == name; });
     if (kind == kinds_.end()) {
         if (kinds_.size() < most_kinds) {
             kind = kinds_.emplace(kinds_.end());
@@ -59,7 +60,8 @@ Json TalkKeeper::to_json() const {
     Json out = Json::array();
     for (std::size_t i = 0; i < lines_.size(); ++i) {
         const Line& line = lines_[lines_.size() < most_lines ? i : (next_ + i) % most_lines];
-        const auto direction = is_own(line.from) ? protocol::Direction::to_screen : protocol::Direction::to_board;
+        const auto direction =
+            is_own(line.from) ? protocol::Direction::to_screen : protocol::Direction::to_board;
         Json one{{"t", machine::to_seconds(line.at)},
                  {"from", line.from},
                  {"line", behaviour::from_wire(line.text)},

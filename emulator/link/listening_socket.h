@@ -9,9 +9,9 @@ namespace fauxboard::link {
 
 /// A socket that takes clients of TCP, and where it is.
 struct ListeningSocket {
-    UniqueFd fd;            ///< does not block
-    std::string text;       ///< "127.0.0.1:4000", "[::1]:4000": the address that it got
-    std::string host;       ///< as it was asked for: "127.0.0.1", "myhost"
+    UniqueFd fd;             ///< does not block
+    std::string text;        ///< "127.0.0.1:4000", "[::1]:4000": the address that it got
+    std::string host;        ///< as it was asked for: "127.0.0.1", "myhost"
     std::uint16_t port = 0;  ///< the one it got
 };
 

@@ -66,8 +66,8 @@ Refusal Gate::judge(const Head& head) const {
         return Refusal::host;
     }
     constexpr std::string_view scheme = "http://";
-    if (head.origin && (!head.origin->starts_with(scheme) ||
-                        !same_name(head.origin->substr(scheme.size()), *head.host))) {
+    if (head.origin &&
+        (!head.origin->starts_with(scheme) || !same_name(head.origin->substr(scheme.size()), *head.host))) {
         return Refusal::origin;
     }
     if (head.fetch_site && *head.fetch_site != "same-origin" && *head.fetch_site != "none") {

@@ -47,11 +47,17 @@ void dress(MHD_Response* response, std::string_view type) {
 Reply refusal(Refusal why) {
     switch (why) {
         case Refusal::host:
-            return {403, Reply{}.type, "This name does not belong to the panel; use the address that run told.\n", {}};
+            return {403,
+                    Reply{}.type,
+                    "This name does not belong to the panel; use the address that run told.\n",
+                    {}};
         case Refusal::origin:
             return {403, Reply{}.type, "The panel answers to its own page only.\n", {}};
         case Refusal::token:
-            return {404, Reply{}.type, "Nothing is here. The whole address, with its token, is what run told.\n", {}};
+            return {404,
+                    Reply{}.type,
+                    "Nothing is here. The whole address, with its token, is what run told.\n",
+                    {}};
         case Refusal::method:
             return {405, Reply{}.type, "GET and POST only.\n", {}};
         case Refusal::none:
@@ -63,8 +69,8 @@ Reply refusal(Refusal why) {
 std::optional<std::string_view> header(MHD_Connection* connection, const char* name) {
     const char* value = nullptr;
     std::size_t size = 0;
-    if (MHD_lookup_connection_value_n(connection, MHD_HEADER_KIND, name, std::string_view(name).size(), &value,
-                                      &size) != MHD_YES) {
+    if (MHD_lookup_connection_value_n(connection, MHD_HEADER_KIND, name, std::string_view(name).size(),
+                                      &value, &size) != MHD_YES) {
         return std::nullopt;
     }
     return std::string_view(value == nullptr ? "" : value, size);
@@ -133,8 +139,9 @@ class HttpServer::Connection {
 struct HttpServer::Callbacks {
     static MHD_Result answer(void* self, MHD_Connection* connection, const char* path, const char* method,
                              const char* /*version*/, const char* data, std::size_t* size, void** mine) {
-        return static_cast<HttpServer*>(self)->answer(connection, path, method, data, size, mine) != 0 ? MHD_YES
-                                                                                                       : MHD_NO;
+        return static_cast<HttpServer*>(self)->answer(connection, path, method, data, size, mine) != 0
+                   ? MHD_YES
+                   : MHD_NO;
     }
     static void completed(void* /*self*/, MHD_Connection* /*connection*/, void** mine,
                           MHD_RequestTerminationCode /*why*/) {
@@ -170,9 +177,10 @@ HttpServer::HttpServer(link::EventLoop& loop, const std::string& where, HttpHand
     const std::size_t slash = where.find('/');
     std::string token = slash == std::string::npos ? make_token() : where.substr(slash + 1);
     if (!is_token(token)) {
-        throw link::LinkError(fmt::format("\"{}\" cannot be the secret part of an address; give {} to {} letters and digits, or "
-                                          "none, and one is made.",
-                                          token, shortest_token, longest_token));
+        throw link::LinkError(fmt::format(
+            "\"{}\" cannot be the secret part of an address; give {} to {} letters and digits, or "
+            "none, and one is made.",
+            token, shortest_token, longest_token));
     }
     link::ListeningSocket listening = link::listen_tcp(where.substr(0, slash));
     where_ = listening.text;
@@ -184,11 +192,13 @@ HttpServer::HttpServer(link::EventLoop& loop, const std::string& where, HttpHand
         MHD_OptionItem{MHD_OPTION_CONNECTION_MEMORY_LIMIT, most_head, nullptr},
         MHD_OptionItem{MHD_OPTION_CONNECTION_TIMEOUT, patience_s, nullptr},
         MHD_OptionItem{MHD_OPTION_STRICT_FOR_CLIENT, 1, nullptr},
-        MHD_OptionItem{MHD_OPTION_UNESCAPE_CALLBACK, reinterpret_cast<intptr_t>(&Callbacks::keep_escapes), nullptr},
+        MHD_OptionItem{MHD_OPTION_UNESCAPE_CALLBACK, reinterpret_cast<intptr_t>(&Callbacks::keep_escapes),
+                       nullptr},
         MHD_OptionItem{MHD_OPTION_NOTIFY_COMPLETED, reinterpret_cast<intptr_t>(&Callbacks::completed), this},
         MHD_OptionItem{MHD_OPTION_END, 0, nullptr}};
-    daemon_ = MHD_start_daemon(MHD_USE_EPOLL | MHD_ALLOW_SUSPEND_RESUME | MHD_USE_ERROR_LOG, 0, nullptr, nullptr,
-                               &Callbacks::answer, this, MHD_OPTION_ARRAY, options.data(), MHD_OPTION_END);
+    daemon_ =
+        MHD_start_daemon(MHD_USE_EPOLL | MHD_ALLOW_SUSPEND_RESUME | MHD_USE_ERROR_LOG, 0, nullptr, nullptr,
+                         &Callbacks::answer, this, MHD_OPTION_ARRAY, options.data(), MHD_OPTION_END);
     if (daemon_ == nullptr) {
         throw link::LinkError(fmt::format("The panel cannot be served on {}.", where_));
     }
@@ -307,17 +317,17 @@ int HttpServer::respond(MHD_Connection* connection, Connection& request) {
             if (streaming_.size() == 1) {
                 alive_.after(sign_of_life);
             }
-            response = MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, stream_block, &Callbacks::read, &request,
-                                                         nullptr);
+            response = MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, stream_block, &Callbacks::read,
+                                                         &request, nullptr);
         } else {
             reply = handler_.get(*route);
         }
     }
     if (response == nullptr) {
         const std::string_view bytes = reply.fixed.empty() ? std::string_view(reply.body) : reply.fixed;
-        response = MHD_create_response_from_buffer(bytes.size(), const_cast<char*>(bytes.data()),
-                                                   reply.fixed.empty() ? MHD_RESPMEM_MUST_COPY
-                                                                       : MHD_RESPMEM_PERSISTENT);
+        response = MHD_create_response_from_buffer(
+            bytes.size(), const_cast<char*>(bytes.data()),
+            reply.fixed.empty() ? MHD_RESPMEM_MUST_COPY : MHD_RESPMEM_PERSISTENT);
     }
     if (response == nullptr) {
         return 0;

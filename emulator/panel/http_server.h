@@ -61,9 +61,9 @@ class HttpServer {
     static constexpr std::chrono::milliseconds stream_pause{40};  ///< between two pieces of a stream
     static constexpr std::chrono::seconds sign_of_life{10};       ///< of a stream that has nothing to say
 
-    /// Listens at once on `where` ("HOST:PORT", ":PORT", "PORT"; loopback where no host is given, 0 for a free
-    /// port), and behind a slash perhaps the token, for an address that is to last beyond the run; a new one if
-    /// not. `handler` outlives this. Throws link::LinkError when it cannot.
+    /// Listens at once on `where` ("HOST:PORT", ":PORT", "PORT"; loopback where no host is given, 0 for a
+    /// free port), and behind a slash perhaps the token, for an address that is to last beyond the run; a new
+    /// one if not. `handler` outlives this. Throws link::LinkError when it cannot.
     HttpServer(link::EventLoop& loop, const std::string& where, HttpHandler& handler);
     ~HttpServer();
     HttpServer(const HttpServer&) = delete;

@@ -132,7 +132,8 @@ Reply Panel::get(const Route& route) {
     if (route.count == 1 && route.parts[0] == "boards") {
         return {200, json_type, list(), {}};
     }
-    const Asset* asset = route.count <= 1 ? find_asset(route.count == 0 ? "index.html" : route.parts[0]) : nullptr;
+    const Asset* asset =
+        route.count <= 1 ? find_asset(route.count == 0 ? "index.html" : route.parts[0]) : nullptr;
     return asset == nullptr ? refuse(404, "Nothing is here.") : Reply{200, asset->type, {}, asset->bytes};
 }
 

@@ -11,8 +11,8 @@
 
 namespace fauxboard::panel {
 
-/// The page in the browser: one board or a shelf of them. What is shown comes from, and what a person does goes
-/// to, the same sessions as the control channel's; here are paths, streams, and the bounds on both.
+/// The page in the browser: one board or a shelf of them. What is shown comes from, and what a person does
+/// goes to, the same sessions as the control channel's; here are paths, streams, and the bounds on both.
 ///
 ///     GET  /                the page; its files by their names
 ///     GET  /boards          [{"name", "profile", "title"}, ...]

@@ -15,8 +15,8 @@ inline constexpr std::chrono::seconds shelf_pause{1};
 /// One board on the shelf, as a page has last been told of it.
 class ShelfCard {
   public:
-    /// Of {"t", "link", "faults", "words", "progress"} what is another than at the last call; time alone is no
-    /// news. Brings the board's machine up to now only as far as the board itself has.
+    /// Of {"t", "link", "faults", "words", "progress"} what is another than at the last call; time alone is
+    /// no news. Brings the board's machine up to now only as far as the board itself has.
     control::Json changes(const host::LiveTarget& target);
 
   private:

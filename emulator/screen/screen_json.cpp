@@ -77,7 +77,11 @@ Json to_json(const Judgement& judgement) {
 
 Json face_json(const Standpoint& at) {
     const PageView view = view_page(at);
-    Json out{{"screen", at.profile.name}, {"page", view.path}, {"title", view.title}, {"lines", view.lines}, {"buttons", Json::array()}};
+    Json out{{"screen", at.profile.name},
+             {"page", view.path},
+             {"title", view.title},
+             {"lines", view.lines},
+             {"buttons", Json::array()}};
     for (const ButtonView& button : view.buttons) {
         Json one = button_json(at.profile, button);
         one["everywhere"] = button.everywhere;

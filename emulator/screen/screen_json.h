@@ -28,8 +28,8 @@ std::string judgement_json(const Judgement& judgement, SimTime at);
 std::string page_json(const Standpoint& at, const std::vector<std::size_t>& missing,
                       std::span<const Finding> findings);
 
-/// The open page for somebody who draws it and presses: {"screen", "page", "title", "lines", "buttons": [{"path",
-/// "label", "row", "everywhere", "shut", "input": {"min", "max", "normally"}}]}.
+/// The open page for somebody who draws it and presses: {"screen", "page", "title", "lines", "buttons":
+/// [{"path", "label", "row", "everywhere", "shut", "input": {"min", "max", "normally"}}]}.
 behaviour::Json face_json(const Standpoint& at);
 
 }  // namespace fauxboard::screen

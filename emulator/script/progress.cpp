@@ -18,15 +18,16 @@ std::string_view state_words(StepResult::Verdict verdict) {
 }  // namespace
 
 Json progress_json(const Player& player) {
-    Json out{{"name", player.scenario().name}, {"title", player.scenario().title}, {"steps", Json::array()},
+    Json out{{"name", player.scenario().name},
+             {"title", player.scenario().title},
+             {"steps", Json::array()},
              {"branches", Json::array()}};
     const std::vector<StepResult>& results = player.results();
     for (std::size_t i = 0; i < results.size(); ++i) {
         const StepResult& result = results[i];
         const bool running = !player.done() && i == player.running();
         const bool reached = running || result.verdict != StepResult::Verdict::not_reached;
-        Json step{{"words", result.words},
-                  {"state", running ? "running" : state_words(result.verdict)}};
+        Json step{{"words", result.words}, {"state", running ? "running" : state_words(result.verdict)}};
         if (reached) {
             step["at"] = machine::to_seconds(result.at);
         }
@@ -36,8 +37,9 @@ Json progress_json(const Player& player) {
         out["steps"].push_back(std::move(step));
     }
     for (const Player::Waiting& waiting : player.waiting()) {
-        out["branches"].push_back(
-            {{"name", waiting.branch}, {"words", waiting.words}, {"since", machine::to_seconds(waiting.since)}});
+        out["branches"].push_back({{"name", waiting.branch},
+                                   {"words", waiting.words},
+                                   {"since", machine::to_seconds(waiting.since)}});
     }
     if (player.done()) {
         out["verdict"] = verdict_name(player.outcome().verdict);

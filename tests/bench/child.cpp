@@ -169,7 +169,8 @@ BoardChild::BoardChild(const std::string& program, const std::vector<std::string
     path_ = start(program, all).at("path").get<std::string>();
 }
 
-FleetChild::FleetChild(const std::string& program, const std::string& file, const std::vector<std::string>& arguments) {
+FleetChild::FleetChild(const std::string& program, const std::string& file,
+                       const std::vector<std::string>& arguments) {
     std::vector<std::string> all{"fleet", file, "--quiet"};
     all.insert(all.end(), arguments.begin(), arguments.end());
     for (const auto& board : start(program, all).at("boards")) {

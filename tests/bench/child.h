@@ -42,7 +42,8 @@ class BoardChild final : public Child {
 /// `fauxboard fleet FILE` with further arguments; path() is that of the first board. Throws as BoardChild.
 class FleetChild final : public Child {
   public:
-    FleetChild(const std::string& program, const std::string& file, const std::vector<std::string>& arguments);
+    FleetChild(const std::string& program, const std::string& file,
+               const std::vector<std::string>& arguments);
     /// Of each board's terminal.
     const std::vector<std::string>& paths() const { return paths_; }
 

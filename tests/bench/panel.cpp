@@ -40,7 +40,8 @@ struct Address {
 /// A client of the page that is no browser: it reads what comes and throws it away.
 class Looker {
   public:
-    explicit Looker(const Address& address) : address_(address), fd_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    explicit Looker(const Address& address)
+        : address_(address), fd_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
         sockaddr_in to{};
         to.sin_family = AF_INET;
         to.sin_port = htons(address.port);
@@ -53,7 +54,9 @@ class Looker {
     Looker(const Looker&) = delete;
     Looker& operator=(const Looker&) = delete;
 
-    void get(const std::string& what) { send_all("GET " + address_.path + what + " HTTP/1.1\r\n" + host() + "\r\n"); }
+    void get(const std::string& what) {
+        send_all("GET " + address_.path + what + " HTTP/1.1\r\n" + host() + "\r\n");
+    }
     void post(const std::string& what, const std::string& body) {
         send_all("POST " + address_.path + what + " HTTP/1.1\r\n" + host() +
                  "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body);
@@ -63,7 +66,8 @@ class Looker {
         std::string text;
         const auto end = Clock::now() + std::chrono::milliseconds(ms);
         while (true) {
-            const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
+            const auto left =
+                std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
             pollfd wait{fd_, POLLIN, 0};
             std::array<char, 65536> bytes;
             if (left <= 0 || poll(&wait, 1, static_cast<int>(left)) <= 0) {
@@ -104,7 +108,8 @@ struct OpenPage {
         }
         const std::string session = std::to_string(std::stoul(hello.substr(at + 11)));
         std::string body;
-        for (const char* topic : {"state", "traffic", "notices", "link", "screen", "judged", "spoiled", "drawing"}) {
+        for (const char* topic :
+             {"state", "traffic", "notices", "link", "screen", "judged", "spoiled", "drawing"}) {
             body += std::string(R"({"op": "subscribe", "topic": ")") + topic + "\"}\n";
         }
         asker.post(live + "/" + session, body);
@@ -150,12 +155,13 @@ std::vector<Figure> unseen(const Settings& settings) {
         side->latencies.clear();
         side->cpu = 0;
     }
-    for (int round = 0; round < (settings.smoke ? 2 : 60); ++round) {  // in turns: what disturbs disturbs both
+    for (int round = 0; round < (settings.smoke ? 2 : 60);
+         ++round) {  // in turns: what disturbs disturbs both
         measured.ask(request, times);
         least.ask(request, times);
     }
-    return {{"processor time per reply with --web, nobody looks", "us", measured.cpu_per_reply(), least.cpu_per_reply(),
-             1.15}};
+    return {{"processor time per reply with --web, nobody looks", "us", measured.cpu_per_reply(),
+             least.cpu_per_reply(), 1.15}};
 }
 
 /// A client asks the page as fast as it can; the line's timing must not show it.
@@ -187,8 +193,8 @@ std::vector<Figure> flooded(const Settings& settings) {
     }
     stop = true;
     flood.join();
-    return {{"request to reply while the page is flooded, p50", "us", median(noisy.latencies), median(quiet.latencies),
-             1.5}};
+    return {{"request to reply while the page is flooded, p50", "us", median(noisy.latencies),
+             median(quiet.latencies), 1.5}};
 }
 
 /// A file of a fleet in a folder of its own.
@@ -269,7 +275,8 @@ std::vector<Figure> thousand(const Settings& settings) {
 
 std::vector<Benchmark> panel_benchmarks() {
     return {{"panel", "the panel while nobody looks, against a run without it", unseen},
-            {"panel-flood", "the line while a client floods the page, against the quiet line of the same run", flooded},
+            {"panel-flood", "the line while a client floods the page, against the quiet line of the same run",
+             flooded},
             {"panel-open", "ten boards with one page and the shelf open", looked_at},
             {"fleet", "a thousand idle boards in one process", thousand}};
 }

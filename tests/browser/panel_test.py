@@ -52,7 +52,7 @@ def a30t(folder, page):
         page.wait(lambda: page.find('.plot canvas'), 'a curve')
         first = page.wait(lambda: page.state('heaters.nozzle.true'), 'a temperature')
         page.wait(lambda: page.state('heaters.nozzle.true') > first + 5, 'the curve to rise')
-        page.wait_text('.legend', 'heaters.nozzle.target 200.0')
+        page.wait_text('.legend', 'nozzle target 200.0')
 
         page.go('faults')
         page.wait(lambda: page.find('[data-kind="garble"] input[role=switch]'), 'the switch').click()

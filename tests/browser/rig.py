@@ -59,11 +59,13 @@ class Program:
 class Page:
     """A page of the panel, as a person has it before them."""
 
+    opened = set()  # addresses; the browser may still tell of one that a case before has left
+
     def __init__(self, driver):
         self.driver = driver
 
     def open(self, address, view=''):
-        self.base = address
+        self.opened.add(address)
         self.driver.get('about:blank')
         self.driver.get(address + view)
 
@@ -94,10 +96,10 @@ class Page:
             except StaleElementReferenceException:
                 pass
             time.sleep(0.05)
-        raise Failed(f'waited in vain for {what}')
+        raise Failed(f'waited in vain for {what() if callable(what) else what}')
 
     def wait_text(self, css, part):
-        return self.wait(lambda: part in self.text(css), f'"{part}" in {css}; there is: {self.text(css)!r}')
+        return self.wait(lambda: part in self.text(css), lambda: f'"{part}" in {css}; there is: {self.text(css)!r}')
 
     def press(self, label):
         """A button of the touch screen."""
@@ -111,7 +113,7 @@ class Page:
                         return False
                     return True
             return False
-        self.wait(once, f'the button {label}; there are: {[key.text for key in self.all(".face button.key")]}')
+        self.wait(once, lambda: f'the button {label}; there are: {self.text(".face")!r}')
 
     def type_into(self, css, text):
         field = self.wait(lambda: self.find(css), css)
@@ -143,7 +145,7 @@ class Page:
             message = json.loads(entry['message'])['message']
             if message['method'] == 'Network.requestWillBeSent':
                 url = message['params']['request']['url']
-                if not url.startswith((self.base, 'data:', 'blob:', 'about:', 'chrome')):
+                if not url.startswith((*self.opened, 'data:', 'blob:', 'about:', 'chrome')):
                     raise Failed('a request goes elsewhere: ' + url)
 
 

@@ -48,14 +48,16 @@ TEST_CASE("Host: addresses and localhost with our port, and the name that was as
         asked.host = host;
         return gate(std::move(name)).judge(asked);
     };
-    for (const char* host : {"127.0.0.1:4321", "localhost:4321", "LocalHost:4321", "[::1]:4321", "192.168.1.7:4321"}) {
+    for (const char* host :
+         {"127.0.0.1:4321", "localhost:4321", "LocalHost:4321", "[::1]:4321", "192.168.1.7:4321"}) {
         CAPTURE(host);
         CHECK(with(host) == Refusal::none);
     }
-    for (const char* host : {"evil.example:4321", "127.0.0.1", "127.0.0.1:80", "127.0.0.1:", "127.0.0.1:43210",
-                             "127.0.0.1.evil.example:4321", "localhost", "localhost.evil.example:4321", "",
-                             ":4321", "127.1:4321", "0x7f000001:4321", "127.0.0.1:+4321", "[::1:4321", "::1:4321",
-                             "127.0.0.1:4321 ", "127.0.0.1:99999999999999999999999"}) {
+    for (const char* host :
+         {"evil.example:4321", "127.0.0.1", "127.0.0.1:80", "127.0.0.1:", "127.0.0.1:43210",
+          "127.0.0.1.evil.example:4321", "localhost", "localhost.evil.example:4321", "", ":4321",
+          "127.1:4321", "0x7f000001:4321", "127.0.0.1:+4321", "[::1:4321", "::1:4321", "127.0.0.1:4321 ",
+          "127.0.0.1:99999999999999999999999"}) {
         CAPTURE(host);
         CHECK(with(host) == Refusal::host);
     }
@@ -68,8 +70,9 @@ TEST_CASE("Host: addresses and localhost with our port, and the name that was as
 
 TEST_CASE("a page of another site is refused by its Origin, or by what the browser says of it") {
     const std::string page = "/" + token + "/live/0/1";
-    for (const char* origin : {"http://evil.example", "null", "https://127.0.0.1:4321", "http://127.0.0.1:4322",
-                               "http://127.0.0.1:4321.evil.example", "", "http://127.0.0.1"}) {
+    for (const char* origin :
+         {"http://evil.example", "null", "https://127.0.0.1:4321", "http://127.0.0.1:4322",
+          "http://127.0.0.1:4321.evil.example", "", "http://127.0.0.1"}) {
         CAPTURE(origin);
         Head asked = head(page);
         asked.origin = origin;

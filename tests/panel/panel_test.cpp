@@ -112,8 +112,8 @@ struct Client {
         return came.starts_with("HTTP/1.1 ") ? std::stoi(came.substr(9, 3)) : 0;
     }
     int get(const std::string& what, const std::string& more = {}) {
-        return ask("GET " + what + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(bench.port) + "\r\n" + more +
-                   "\r\n");
+        return ask("GET " + what + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(bench.port) + "\r\n" +
+                   more + "\r\n");
     }
     int post(const std::string& what, const std::string& body) {
         return ask("POST " + what + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(bench.port) +
@@ -144,7 +144,8 @@ struct Reader {
         REQUIRE(session != 0);
     }
     json ask(const json& request) {
-        REQUIRE(asker.post(stream.bench.path + "live/0/" + std::to_string(session), request.dump() + "\n") == 204);
+        REQUIRE(asker.post(stream.bench.path + "live/0/" + std::to_string(session), request.dump() + "\n") ==
+                204);
         return stream.event();
     }
     Client stream;
@@ -158,7 +159,8 @@ TEST_CASE("the page, its parts and the library of the curves are in the program"
     CHECK(client.get(b.path) == 200);
     CHECK(client.until("</html>"));
     CHECK(client.came.find("text/html") != std::string::npos);
-    CHECK(client.came.find("Content-Security-Policy: default-src 'none'; script-src 'self'") != std::string::npos);
+    CHECK(client.came.find("Content-Security-Policy: default-src 'none'; script-src 'self'") !=
+          std::string::npos);
     CHECK(client.came.find("no real printer here") != std::string::npos);
     REQUIRE(find_asset("dygraph.min.js") != nullptr);
     CHECK(find_asset("dygraph.min.js")->bytes.find("MIT") != std::string_view::npos);
@@ -175,8 +177,9 @@ TEST_CASE("the page, its parts and the library of the curves are in the program"
 
 TEST_CASE("nothing else is served, and nobody without the address") {
     Bench b;
-    for (const char* name : {"../../etc/passwd", "%2e%2e/%2e%2e/etc/passwd", "index.html/x", "live/7", "live/0x", "live/-1",
-                             "live", "app.js%00", "profiles/geeetech-a30t.json", "live/0/1/2"}) {
+    for (const char* name :
+         {"../../etc/passwd", "%2e%2e/%2e%2e/etc/passwd", "index.html/x", "live/7", "live/0x", "live/-1",
+          "live", "app.js%00", "profiles/geeetech-a30t.json", "live/0/1/2"}) {
         CAPTURE(name);
         Client client(b);
         CHECK(client.get(b.path + name) == 404);
@@ -198,7 +201,8 @@ TEST_CASE("a session on a stream: requests go by POST, answers and events come")
     const json answer = reader.ask({{"id", 5}, {"op", "get"}, {"fields", "heaters.nozzle.target"}});
     CHECK(answer["id"] == 5);
     CHECK(answer["fields"]["heaters.nozzle.target"] == 0.0);
-    CHECK(reader.ask({{"op", "set"}, {"fields", {{"heaters.nozzle.target", 9999}}}})["error"]["code"] == "out-of-range");
+    CHECK(reader.ask({{"op", "set"}, {"fields", {{"heaters.nozzle.target", 9999}}}})["error"]["code"] ==
+          "out_of_range");
     CHECK(reader.ask({{"op", "subscribe"}, {"topic", "traffic"}, {"words", true}})["ok"] == true);
     CHECK(b.answers());
     const json asked = reader.stream.event();
@@ -242,11 +246,11 @@ TEST_CASE("curves, the talk and the rest of what people look at") {
     CHECK(talk["lines"].size() > 5);
     CHECK(talk["lines"][0].contains("words"));
     CHECK(reader.ask({{"op", "scenario"}})["scenario"].is_null());
-    CHECK(reader.ask({{"op", "press"}, {"button", "Home"}})["error"]["code"] == "not-here");
+    CHECK(reader.ask({{"op", "press"}, {"button", "Home"}})["error"]["code"] == "not_here");
     b.line.messages.clear();
     CHECK(reader.ask({{"op", "request"}, {"line", "M105"}})["ok"] == true);
     CHECK(b.line.wrote("L2 B:"));
-    CHECK(reader.ask({{"op", "request"}, {"line", "M105\nM106"}})["error"]["code"] == "bad-arguments");
+    CHECK(reader.ask({{"op", "request"}, {"line", "M105\nM106"}})["error"]["code"] == "bad_arguments");
 }
 
 TEST_CASE("hostile: endless heads, bodies and garbage end that connection and no other") {
@@ -310,9 +314,11 @@ TEST_CASE("hostile: a page that asks and never reads is bounded, and dropped in 
     REQUIRE(reader.ask({{"op", "subscribe"}, {"topic", "traffic"}, {"words", true}})["ok"] == true);
     int refused = 0;
     for (int i = 0; i < 400 && refused == 0; ++i) {
-        for (int line = 0; line < 100; ++line) b.live.on_bytes(protocol::frame("M290 Z0.01"));
+        for (int line = 0; line < 100; ++line)
+            b.live.on_bytes(protocol::frame("M290 Z0.01"));
         b.loop.run_one_for(5ms);
-        const int status = reader.asker.post(b.path + "live/0/" + std::to_string(reader.session), "{\"op\": \"get\"}\n");
+        const int status =
+            reader.asker.post(b.path + "live/0/" + std::to_string(reader.session), "{\"op\": \"get\"}\n");
         refused += status == 503 || status == 410 ? 1 : 0;
     }
     CHECK(refused == 1);
@@ -334,7 +340,8 @@ TEST_CASE("an address of the user's lasts; a bad one is refused with a sentence"
     Bench b;
     Panel own(b.loop, "127.0.0.1:0/my-desk-screen", {{"left", b.target}});
     CHECK(own.address().ends_with("/my-desk-screen/"));
-    CHECK_THROWS_WITH_AS(Panel(b.loop, "127.0.0.1:0/short", {}), doctest::Contains("12 to 64"), link::LinkError);
+    CHECK_THROWS_WITH_AS(Panel(b.loop, "127.0.0.1:0/short", {}), doctest::Contains("12 to 64"),
+                         link::LinkError);
     CHECK_THROWS_AS(Panel(b.loop, "nonsense", {}), link::LinkError);
 }
 

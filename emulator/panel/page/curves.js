@@ -12,7 +12,12 @@ let library = null;
 function load_library() {
     library = library || new Promise((resolve, reject) => {
         document.head.append(h('link', {rel: 'stylesheet', href: 'dygraph.min.css'}),
-            h('script', {src: 'dygraph.min.js', onload: resolve, onerror: reject}));
+            h('script', {src: 'dygraph.min.js', onerror: reject, onload: () => {
+                // Ours stands above the plot; the library's would set styles from markup.
+                const {Dygraph} = window;
+                Dygraph.PLUGINS = Dygraph.PLUGINS.filter(plugin => plugin !== Dygraph.Plugins.Legend);
+                resolve();
+            }}));
     });
     return library;
 }
