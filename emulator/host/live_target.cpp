@@ -27,7 +27,7 @@ constexpr std::array looked_at{TopicId::screen, TopicId::scenario, TopicId::draw
 }  // namespace
 
 LiveTarget::LiveTarget(Parts parts)
-    : parts_(std::move(parts)), hub_(*this), look_(parts_.loop, [this] { look(); }) {
+    : parts_(std::move(parts)), hub_(*this), drawings_(parts_.board), look_(parts_.loop, [this] { look(); }) {
     parts_.live.follow(
         [this](SimTime now) { return std::min(hub_.on_moved(now), curves_.take(parts_.board, now)); });
 }
@@ -183,7 +183,18 @@ Json LiveTarget::scenario() {
 }
 
 Json LiveTarget::drawing(const board::Board& /*board*/, SimTime /*now*/) {
-    return nullptr;
+    return drawings_.whole();
+}
+
+/// A drawing grows: only what is new is told.
+void LiveTarget::look_at_drawing() {
+    looking_ = true;
+    parts_.live.visit([this](board::Board& board, SimTime now) {
+        board.refresh(now);
+        if (const Json news = drawings_.news(); !news.is_null()) {
+            hub_.publish(TopicId::drawing, now, {{"drawing", news}});
+        }
+    });
 }
 
 /// Somebody looks: what is told when it has changed is looked at now and then, for as long as it is wanted.
@@ -208,10 +219,7 @@ void LiveTarget::look() {
         look_at(TopicId::scenario, scenario());
     }
     if (hub_.wanted(TopicId::drawing)) {
-        parts_.live.visit([this](board::Board& board, SimTime now) {
-            board.refresh(now);
-            look_at(TopicId::drawing, drawing(board, now));
-        });
+        look_at_drawing();
     }
     if (looking_) {
         look_.after(look_pause);

@@ -10,6 +10,7 @@
 #include "emulator/fault/fault_control.h"
 #include "emulator/host/clock.h"
 #include "emulator/host/curve_keeper.h"
+#include "emulator/host/drawings.h"
 #include "emulator/host/live_board.h"
 #include "emulator/host/live_observer.h"
 #include "emulator/host/screen_mirror.h"
@@ -88,6 +89,7 @@ class LiveTarget final : public LiveObserver, private control::Target, private c
     control::Json curves() override { return curves_.to_json(); }
     control::Json scenario() override;
     control::Json drawing(const board::Board& board, SimTime now) override;
+    void look_at_drawing();
 
     void skip_on();
     ScreenMirror* mirror();
@@ -98,6 +100,7 @@ class LiveTarget final : public LiveObserver, private control::Target, private c
     control::Hub hub_;
     TalkKeeper talk_;
     CurveKeeper curves_;
+    Drawings drawings_;
     std::optional<ScreenMirror> mirror_;  ///< while somebody looks
     SimTime mirror_used_{0};
     ScreenPlug* plug_ = nullptr;

@@ -110,8 +110,8 @@ TEST_CASE("traffic with words, for those who asked for them") {
     b.live.on_bytes(protocol::frame("M105"));
     CHECK(b.lines().front()["words"].get<std::string>() != "");
     CHECK(plain.take_output().find("words") == std::string::npos);
-    CHECK(b.ask({{"op", "subscribe"}, {"topic", "link"}, {"words", true}})["error"]["code"] == "bad_request");
-    CHECK(b.ask({{"op", "subscribe"}, {"topic", "traffic"}, {"words", 1}})["error"]["code"] == "bad_request");
+    CHECK(b.ask({{"op", "subscribe"}, {"topic", "link"}, {"words", true}})["error"]["code"] == "bad-request");
+    CHECK(b.ask({{"op", "subscribe"}, {"topic", "traffic"}, {"words", 1}})["error"]["code"] == "bad-request");
 }
 
 TEST_CASE("a screen that looks on shows what the board has said, before it was there and after") {
@@ -137,7 +137,7 @@ TEST_CASE("its buttons are requests to the board, and lead to pages") {
           200.0);
     const Json wrong = b.ask({{"op", "press"}, {"button", "Hotend onn"}});
     CHECK(wrong["error"]["code"] == "refused");
-    CHECK(b.ask({{"op", "press"}, {"button", "Home"}, {"row", 0}})["error"]["code"] == "out_of_range");
+    CHECK(b.ask({{"op", "press"}, {"button", "Home"}, {"row", 0}})["error"]["code"] == "out-of-range");
 }
 
 TEST_CASE("while somebody is on the line the screen that looks on says nothing by itself") {
@@ -165,7 +165,7 @@ TEST_CASE("while somebody is on the line the screen that looks on says nothing b
 TEST_CASE("a board without a screen of its kind has none, and says so") {
     Bench b("elegoo-mars-pro");
     CHECK(b.ask({{"op", "screen"}})["screen"].is_null());
-    CHECK(b.ask({{"op", "press"}, {"button", "Home"}})["error"]["code"] == "not_here");
+    CHECK(b.ask({{"op", "press"}, {"button", "Home"}})["error"]["code"] == "not-here");
 }
 
 TEST_CASE("what is looked at is told when it changes, and only while somebody wants it") {

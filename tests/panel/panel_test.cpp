@@ -202,7 +202,7 @@ TEST_CASE("a session on a stream: requests go by POST, answers and events come")
     CHECK(answer["id"] == 5);
     CHECK(answer["fields"]["heaters.nozzle.target"] == 0.0);
     CHECK(reader.ask({{"op", "set"}, {"fields", {{"heaters.nozzle.target", 9999}}}})["error"]["code"] ==
-          "out_of_range");
+          "out-of-range");
     CHECK(reader.ask({{"op", "subscribe"}, {"topic", "traffic"}, {"words", true}})["ok"] == true);
     CHECK(b.answers());
     const json asked = reader.stream.event();
@@ -246,11 +246,11 @@ TEST_CASE("curves, the talk and the rest of what people look at") {
     CHECK(talk["lines"].size() > 5);
     CHECK(talk["lines"][0].contains("words"));
     CHECK(reader.ask({{"op", "scenario"}})["scenario"].is_null());
-    CHECK(reader.ask({{"op", "press"}, {"button", "Home"}})["error"]["code"] == "not_here");
+    CHECK(reader.ask({{"op", "press"}, {"button", "Home"}})["error"]["code"] == "not-here");
     b.line.messages.clear();
     CHECK(reader.ask({{"op", "request"}, {"line", "M105"}})["ok"] == true);
     CHECK(b.line.wrote("L2 B:"));
-    CHECK(reader.ask({{"op", "request"}, {"line", "M105\nM106"}})["error"]["code"] == "bad_arguments");
+    CHECK(reader.ask({{"op", "request"}, {"line", "M105\nM106"}})["error"]["code"] == "bad-arguments");
 }
 
 TEST_CASE("hostile: endless heads, bodies and garbage end that connection and no other") {
