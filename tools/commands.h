@@ -19,6 +19,7 @@ enum class ExitCode : int {
 
 /// Each subcommand lives in one file and adds itself. Its callback leaves its result in `exit`.
 void add_run(CLI::App& app, ExitCode& exit);
+void add_fleet(CLI::App& app, ExitCode& exit);
 void add_send(CLI::App& app, ExitCode& exit);
 void add_replay(CLI::App& app, ExitCode& exit);
 void add_screen(CLI::App& app, ExitCode& exit);

@@ -77,6 +77,7 @@ int run_app(int argc, char** argv) {
     app.set_version_flag("--version", version_text);
     app.require_subcommand(1);
     add_run(app, exit);
+    add_fleet(app, exit);
     add_send(app, exit);
     add_replay(app, exit);
     add_screen(app, exit);

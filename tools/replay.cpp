@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <fstream>
 #include <memory>
 #include <optional>
 
@@ -11,6 +12,7 @@
 #include "emulator/host/profile_files.h"
 #include "emulator/link/host_error.h"
 #include "emulator/record/compare.h"
+#include "emulator/record/plot.h"
 #include "tools/report.h"
 
 namespace fauxboard::tools {
@@ -21,6 +23,7 @@ struct ReplayArguments {
     std::string capture;
     std::string sd;
     record::ReplayOptions options;
+    std::string plot;  ///< file; empty: none
     bool compare = false;
     bool json = false;
 };
@@ -34,6 +37,15 @@ void print_notices(const record::ReplayResult& result) {
     }
 }
 
+void write_plot(const std::string& file, const std::string& svg) {
+    std::ofstream out(file, std::ios::binary | std::ios::trunc);
+    out << svg;
+    out.close();
+    if (!out) {
+        throw link::HostError(fmt::format("{} cannot be written. Name a file in a folder of yours.", file));
+    }
+}
+
 ExitCode replay(const ReplayArguments& arguments) {
     const auto profile = host::load_profile_by_name(arguments.profile);
     const auto recording = record::load_recording(std::filesystem::path(arguments.capture));
@@ -44,6 +56,13 @@ ExitCode replay(const ReplayArguments& arguments) {
     }
     const record::ReplayResult result = record::replay(profile, recording, options);
     print_notices(result);
+    if (!arguments.plot.empty()) {
+        write_plot(arguments.plot, record::plot_svg({{"recorded", recording}, {"replayed", result.lines}},
+                                                    profile->machine->thermal.fold));
+        if (!arguments.compare) {
+            return ExitCode::ok;
+        }
+    }
     if (!arguments.compare) {
         std::string text;
         for (const record::RecordedLine& line : result.lines) {
@@ -90,6 +109,9 @@ void add_replay(CLI::App& app, ExitCode& exit) {
     CLI::Option* compare = command->add_flag(
         "--compare", arguments->compare,
         "Report instead how our lines differ from the recorded board's; exit code 1 when too much");
+    command->add_option("--plot", arguments->plot,
+                        "Draw the curves instead, recorded against replayed: an SVG for any browser")
+        ->type_name("FILE.svg");
     command->add_flag("--json", arguments->json, "The report as one JSON object")->needs(compare);
     command->callback([arguments, &exit] { exit = guarded(*arguments); });
 }

@@ -39,6 +39,7 @@ struct RunOptions {
     std::string eeprom;               ///< file; empty: in memory
     std::string record;               ///< file; empty: none
     std::string control;              ///< socket of the control channel; empty: none
+    std::optional<std::string> web;   ///< "HOST:PORT" of the panel in the browser; nothing: none
     std::string script;               ///< a scenario; empty: none
     std::string screen;               ///< a virtual screen in this process instead of a line; empty: none
     std::string junit;                ///< file; empty: none

@@ -104,6 +104,9 @@ class Board final : private behaviour::NoticeSink {
     /// Whether somebody is at the other end of a line: of the main line somebody always is, of the others at
     /// first nobody. What would go to nobody is not said.
     void connect(Channel channel, bool connected) { ports_[index(channel)].connected = connected; }
+    /// One whole line, line end left off, as if it had come on the main line: beside whatever half line is
+    /// arriving there.
+    void hear(SimTime now, std::string_view line);
     /// A datagram of the network from `peer`, a number that is not 0: one request, or a piece of the file
     /// that it uploads. Carried out at once; what the board says to it is for take_datagrams().
     void receive_datagram(SimTime now, std::uint64_t peer, std::string_view bytes);

@@ -13,6 +13,7 @@ using Answer = std::optional<Json>;
 std::span<const Op> value_ops();
 std::span<const Op> machine_ops();
 std::span<const Op> fault_ops();
+std::span<const Op> view_ops();
 std::span<const Op> session_ops();
 
 }  // namespace fauxboard::control::rows

@@ -224,6 +224,13 @@ void Motion::stream(const AxisValues& target, double feed_mm_s, std::uint64_t by
     planned_ = accepted_ = inside;
 }
 
+void Motion::tell_travel(const AxisValues& to) const {
+    const bool moves = to[0] != executed_[0] || to[1] != executed_[1];
+    if (moves) {
+        travelled_({executed_[0], executed_[1], to[0], to[1], to[2], to[3] > executed_[3]});
+    }
+}
+
 void Motion::start_stream(SimTime now) {
     if (!planner_.empty() && !planner_.running()) {
         planner_.start(now);
@@ -235,6 +242,9 @@ void Motion::advance(SimTime now, EventQueue& events) {
     while (planner_.running() && planner_.end() <= now) {
         const SimTime end = planner_.end();
         extruded_ += planner_.target()[3] - executed_[3];
+        if (travelled_) {
+            tell_travel(planner_.target());
+        }
         executed_ = planner_.target();
         planner_.finish();
         if (planner_.empty()) {

@@ -3,10 +3,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 
 #include "emulator/filament/config.h"
 #include "emulator/filament/names.h"
 #include "emulator/filament/planner.h"
+#include "emulator/filament/travel.h"
 #include "emulator/filament/state.h"
 
 namespace fauxboard::filament {
@@ -76,6 +78,8 @@ class Motion {
     void set_motors(bool on);
     bool motors() const { return motors_ && !faults_.dead_motors; }
     MotionFaults& faults() { return faults_; }
+    /// Told of each move of a job in the plane when it has been done, from inside advance(); must not call back.
+    void on_travel(std::function<void(const Travel&)> told) { travelled_ = std::move(told); }
     /// Filament that the extruder was turned for since the machine was made, mm.
     double extruded_mm() const { return extruded_; }
     bool homed() const { return (homed_ & 7U) == 7U; }
@@ -116,6 +120,7 @@ class Motion {
     bool fails(const Step& step, EventQueue& events);
     bool dead_endstop(std::size_t axis) const { return faults_.dead_motors || faults_.dead_endstops[axis]; }
     double duration_s(const Step& step) const;
+    void tell_travel(const AxisValues& to) const;
     double bed_height_mm(double x, double y) const;
 
     const MotionConfig& config_;
@@ -140,6 +145,7 @@ class Motion {
     bool relative_e_ = false;
     bool motors_ = false;
     MotionFaults faults_;
+    std::function<void(const Travel&)> travelled_;
     double extruded_ = 0;
 };
 

@@ -28,7 +28,10 @@ class ScreenPlug {
     void start();
     void close();
     const screen::Screen& screen() const { return screen_; }
-    screen::PressResult press(std::string_view path) { return live_->press(path); }
+    /// See screen::Screen::press().
+    screen::PressResult press(std::string_view path, std::size_t row = 0, std::optional<double> input = {}) {
+        return live_->press(path, row, input);
+    }
 
   private:
     class End;

@@ -282,6 +282,16 @@ PressResult Screen::touch(std::size_t id, std::size_t row, std::optional<double>
     return result;
 }
 
+PressResult Screen::press(std::string_view path, std::size_t row, std::optional<double> input, SimTime now) {
+    catch_up(now);
+    const Resolved meant = resolve(*profile_, values_, page_, path);
+    const auto& here = page().buttons;
+    if (!meant.button || std::find(here.begin(), here.end(), *meant.button) == here.end()) {
+        return press(path, now);
+    }
+    return touch(*meant.button, row != 0 ? row : meant.row, input ? input : meant.input, now);
+}
+
 PressResult Screen::press(std::string_view path, SimTime now) {
     catch_up(now);
     PressResult result;

@@ -65,6 +65,8 @@ class Screen {
     /// Touches the button that `path` means (see resolve()), from wherever the screen stands: the pages on
     /// the way are opened by touch as well, with all they send.
     PressResult press(std::string_view path, SimTime now);
+    /// The same with the row and the number typed in beside the path, which count on the open page.
+    PressResult press(std::string_view path, std::size_t row, std::optional<double> input, SimTime now);
     /// Touches one button of the page that is open. `row` as in Step, `input` the number typed in.
     PressResult touch(std::size_t button, std::size_t row, std::optional<double> input, SimTime now);
 

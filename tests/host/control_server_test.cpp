@@ -2,6 +2,7 @@
 // hand.
 
 #include "emulator/host/control_server.h"
+#include "emulator/host/live_target.h"
 
 #include <sys/socket.h>
 
@@ -26,9 +27,9 @@ struct Bench {
     explicit Bench(SimTime duration = machine::never)
         : board(load_profile_by_name("geeetech-a30t"), {}, {false, 1, &observers}),
           live(board, link, clock, &observers),
-          server({loop, board, live, clock, link, nullptr, [this] { quit = true; },
-                  [this](std::string_view text) { said += text; }}) {
-        observers.add(server);
+          target({loop, board, live, clock, link, nullptr, [this] { quit = true; }, 1, nullptr}),
+          server(loop, target.hub(), [this](std::string_view text) { said += text; }) {
+        observers.add(target);
         server.open(path);
         link.open(live);
         live.start(duration, [this] { ended = true; });
@@ -52,6 +53,7 @@ struct Bench {
     bool quit = false;
     bool ended = false;
     std::string said;
+    LiveTarget target;
     ControlServer server;
 };
 
