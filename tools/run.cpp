@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "emulator/fault/printer_fault.h"
+#include "emulator/host/board_display.h"
 #include "emulator/host/clock.h"
 #include "emulator/host/control_server.h"
 #include "emulator/host/eeprom_file.h"
@@ -22,6 +23,7 @@
 #include "emulator/host/profile_files.h"
 #include "emulator/host/profile_watch.h"
 #include "emulator/host/recorder.h"
+#include "emulator/host/screen_files.h"
 #include "emulator/host/screen_plug.h"
 #include "emulator/host/script_host.h"
 #include "emulator/link/event_loop.h"
@@ -99,9 +101,11 @@ class Run {
     std::unique_ptr<link::Link> wire_;  ///< the line as it is, if it leads out of this process
     std::optional<host::ScreenPlug> plug_;
     std::optional<host::FaultyLink> link_;
-    std::unique_ptr<link::Link> host_link_;  ///< the board's USB port
+    std::unique_ptr<link::Link> host_link_;     ///< the board's USB port
+    std::optional<touch::TouchScreen> screen_;  ///< part of the board
     std::optional<board::Board> board_;
     std::optional<host::LiveBoard> live_;
+    std::unique_ptr<control::Display> display_;
     std::unique_ptr<link::UdpSocket> udp_;
     std::optional<host::NetworkLine> network_;
     std::optional<host::ControlServer> control_;
@@ -162,6 +166,9 @@ void Run::set_up() {
     options.pacing = options_.pacing;
     options.seed = options_.seed;
     options.observer = &observers_;
+    if (!profile_->screen.empty()) {
+        options.front = &screen_.emplace(host::load_own_screen(profile_->screen));
+    }
     board_.emplace(profile_, services, options);
     link_.emplace(make_wire(), *clock_, fault::Direction::to_board);
     for (const std::string& text : options_.faults) {
@@ -174,6 +181,11 @@ void Run::set_up() {
         }
     }
     live_.emplace(*board_, *link_, *clock_, &observers_);
+    if (screen_) {
+        display_ = std::make_unique<host::BoardDisplay>(*screen_, *board_);
+    } else if (plug_) {
+        display_ = std::make_unique<host::PlugDisplay>(*plug_);
+    }
 }
 
 void Run::set_up_disks(machine::Services& services) {
@@ -197,9 +209,9 @@ void Run::open_control() {
     if (options_.control.empty()) {
         return;
     }
-    control_.emplace(
-        host::ControlServer::Parts{loop_, *board_, *live_, *clock_, *link_, &*link_, [this] { loop_.stop(); },
-                                   [this](std::string_view text) { say(board::Level::info, text); }});
+    control_.emplace(host::ControlServer::Parts{
+        loop_, *board_, *live_, *clock_, *link_, &*link_, [this] { loop_.stop(); },
+        [this](std::string_view text) { say(board::Level::info, text); }, display_.get()});
     observers_.add(*control_);
     control_->open(options_.control);
 }
@@ -208,10 +220,10 @@ void Run::open_script() {
     if (!scenario_) {
         return;
     }
-    script_.emplace(
-        host::ScriptHost::Parts{*live_, *clock_, &*link_, plug_ ? &*plug_ : nullptr, [this] { loop_.stop(); },
-                                [this](std::string_view text) { say(board::Level::info, text); }},
-        scenario_, options_.speed);
+    script_.emplace(host::ScriptHost::Parts{
+                        *live_, *clock_, &*link_, plug_ ? &*plug_ : nullptr, [this] { loop_.stop(); },
+                        [this](std::string_view text) { say(board::Level::info, text); }, display_.get()},
+                    scenario_, options_.speed);
     observers_.add(*script_);
 }
 

@@ -14,5 +14,6 @@ std::span<const Op> value_ops();
 std::span<const Op> machine_ops();
 std::span<const Op> fault_ops();
 std::span<const Op> session_ops();
+std::span<const Op> display_ops();
 
 }  // namespace fauxboard::control::rows

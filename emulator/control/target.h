@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "emulator/board/board.h"
+#include "emulator/control/display.h"
 #include "emulator/control/error.h"
 #include "emulator/fault/fault_control.h"
 
@@ -31,6 +32,8 @@ class Target {
     virtual fault::FaultControl* faults() = 0;
     /// What only the host knows, as members of the answer to `status`: link, speed.
     virtual Json status() const = 0;
+    /// What shows the board to a person; null when nothing does.
+    virtual Display* display() { return nullptr; }
 };
 
 }  // namespace fauxboard::control

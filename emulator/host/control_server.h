@@ -30,6 +30,7 @@ class ControlServer final : public LiveObserver, private control::Target {
         fault::FaultControl* faults;                ///< null: the line takes none
         std::function<void()> quit;                 ///< ends the run; called from the event loop
         std::function<void(std::string_view)> say;  ///< what a person wants to know of the channel itself
+        control::Display* display = nullptr;        ///< null: nothing shows the board
     };
     /// All of it outlives this. Follows `live`, so make it before that is started; hand it to the observers.
     explicit ControlServer(Parts parts);
@@ -63,6 +64,7 @@ class ControlServer final : public LiveObserver, private control::Target {
     void quit() override;
     fault::FaultControl* faults() override { return parts_.faults; }
     control::Json status() const override;
+    control::Display* display() override { return parts_.display; }
 
     void take(link::UniqueFd socket);
     void turn_away(const link::UniqueFd& socket) const;

@@ -13,6 +13,9 @@ namespace fauxboard::host {
 /// behaviour::ProfileError, also when there is no such file; then the names that exist are told.
 std::shared_ptr<const screen::ScreenProfile> load_screen_by_name(std::string_view name);
 
+/// The same of a screen that is part of a board: it must have a display.
+std::shared_ptr<const screen::ScreenProfile> load_own_screen(std::string_view name);
+
 /// All screens in the folders, by name.
 std::vector<ProfileEntry> list_screens();
 

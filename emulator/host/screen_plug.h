@@ -29,6 +29,9 @@ class ScreenPlug {
     void close();
     const screen::Screen& screen() const { return screen_; }
     screen::PressResult press(std::string_view path) { return live_->press(path); }
+    screen::PressResult touch(std::size_t button, std::size_t row) {
+        return live_->touch(button, row, std::nullopt);
+    }
 
   private:
     class End;
