@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "emulator/behaviour/lists.h"
 #include "emulator/drawing/draw.h"
 #include "emulator/drawing/png.h"
 #include "emulator/screen/scene.h"
@@ -11,12 +12,37 @@ namespace fauxboard::host {
 using control::Display;
 using control::Json;
 
+namespace {
+
+/// What the machine has to show, as whoever draws wants it.
+class MachinePictures final : public drawing::Pictures {
+  public:
+    explicit MachinePictures(const machine::Machine& machine) : machine_(machine) {}
+
+    bool size(std::string_view name, std::size_t index, std::uint32_t& width,
+              std::uint32_t& height) const override {
+        const behaviour::Picture* picture = behaviour::find_picture(name);
+        return picture != nullptr && picture->size(machine_, index, width, height);
+    }
+    bool row(std::string_view name, std::size_t index, std::uint32_t y,
+             std::span<std::uint32_t> out) const override {
+        const behaviour::Picture* picture = behaviour::find_picture(name);
+        return picture != nullptr && picture->row(machine_, index, y, out);
+    }
+
+  private:
+    const machine::Machine& machine_;
+};
+
+}  // namespace
+
 Json BoardDisplay::page(SimTime /*now*/) {
     return page_json(screen_.scene(board_.machine()));
 }
 
 std::string BoardDisplay::png(SimTime /*now*/) {
-    return drawing::png_bytes(drawing::draw(screen_.scene(board_.machine())));
+    const MachinePictures pictures(board_.machine());
+    return drawing::png_bytes(drawing::draw(screen_.scene(board_.machine()), &pictures));
 }
 
 Display::Touched BoardDisplay::touch(SimTime now, int x, int y, SimTime how_long) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "emulator/behaviour/lists.h"
 #include "emulator/behaviour/nearest.h"
 #include "emulator/behaviour/operand.h"
 #include "emulator/screen/screen_compiler.h"
@@ -180,6 +181,10 @@ void Compiler::text_keys(ObjectReader& reader, Figure& out) {
 
 void Compiler::picture_keys(ObjectReader& reader, Figure& out, Allowed allowed) {
     reader.text("picture", out.picture, 60);
+    if (behaviour::find_picture(out.picture) == nullptr) {
+        findings.add(reader.pointer("picture"), fmt::format("the machine has no picture \"{}\"", out.picture),
+                     std::string(behaviour::nearest_picture(out.picture)));
+    }
     out.index = Expression::constant(0);
     if (const Json* index = reader.get("index")) {
         out.index = expression(*index, reader.pointer("index"), allowed);

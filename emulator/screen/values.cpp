@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "emulator/behaviour/fields.h"
+#include "emulator/behaviour/lists.h"
 #include "emulator/behaviour/nearest.h"
 #include "emulator/behaviour/number_text.h"
 #include "emulator/behaviour/wire_text.h"
@@ -29,12 +30,19 @@ std::optional<std::size_t> ValueTable::want(std::string_view name) {
     if (const auto id = find(name); id || !machine_) {
         return id;
     }
+    ValueInfo info;
+    info.name = name;
+    if (const behaviour::List* list = behaviour::find_list(name)) {
+        info.kind = ValueKind::list;
+        info.source = list;
+        info.columns.assign(list->columns.begin(), list->columns.end());
+        add(std::move(info));
+        return infos_.size() - 1;
+    }
     const behaviour::Field* field = behaviour::find_field(name);
     if (field == nullptr) {
         return std::nullopt;
     }
-    ValueInfo info;
-    info.name = name;
     info.kind = field->type == behaviour::FieldType::text ? ValueKind::text : ValueKind::number;
     info.unit = field->unit;
     info.help = field->help;

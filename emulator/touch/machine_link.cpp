@@ -1,12 +1,42 @@
 #include "emulator/touch/machine_link.h"
 
+#include <algorithm>
 #include <array>
+
+#include "emulator/behaviour/lists.h"
 
 namespace fauxboard::touch {
 
 using behaviour::Value;
 
+namespace {
+
+/// More entries than that no screen shows.
+constexpr std::size_t most_rows = 10'000;
+
+std::string text_of(const Value& value) {
+    return value.is_text() ? std::string(value.text) : value.none() ? "" : screen::short_text(value.number);
+}
+
+void read_list(const behaviour::List& list, const machine::Machine& machine, screen::Shown& out) {
+    const std::size_t rows = std::min(list.count(machine), most_rows);
+    out.list.resize(rows);
+    out.cells.resize(rows);
+    for (std::size_t row = 0; row < rows; ++row) {
+        out.cells[row].resize(list.columns.size());
+        for (std::size_t column = 0; column < list.columns.size(); ++column) {
+            out.cells[row][column] = text_of(list.get(machine, row, column));
+        }
+        out.list[row] = out.cells[row].empty() ? std::string{} : out.cells[row].front();
+    }
+}
+
+}  // namespace
+
 void read_machine(const screen::ValueInfo& info, const machine::Machine& machine, screen::Shown& value) {
+    if (info.source != nullptr) {
+        read_list(*info.source, machine, value);
+    }
     if (info.field == nullptr) {
         return;
     }

@@ -100,7 +100,11 @@ std::string wrong_with(std::string_view json) {
 }
 
 TouchBench::TouchBench(std::string_view json)
-    : screen(own_screen_from(json)), board(shipped_profile("geeetech-a30t"), {}, with(screen)) {
+    : TouchBench(shipped_profile("geeetech-a30t"), own_screen_from(json), {}) {}
+
+TouchBench::TouchBench(std::shared_ptr<const behaviour::Profile> profile,
+                       std::shared_ptr<const screen::ScreenProfile> own, const machine::Services& services)
+    : screen(std::move(own)), board(std::move(profile), services, with(screen)) {
     board.power_on(now);
 }
 
@@ -136,6 +140,27 @@ double TouchBench::field(std::string_view path) const {
     const behaviour::Field* found = behaviour::find_field(path);
     REQUIRE(found != nullptr);
     return found->get(board.machine()).number;
+}
+
+std::string TouchBench::text_field(std::string_view path) const {
+    const behaviour::Field* found = behaviour::find_field(path);
+    REQUIRE(found != nullptr);
+    return std::string(found->get(board.machine()).text);
+}
+
+bool TouchBench::run_until_field(std::string_view path, double value, double within_s) {
+    constexpr SimTime step{1000};
+    const SimTime end = now + us(within_s);
+    board.refresh(now);
+    while (field(path) != value) {
+        if (now >= end) return false;
+        // Nothing changes by itself but at the board's own times, and what moves.
+        const SimTime due = board.advance(now);
+        const SimTime next = field("platform.moving") != 0 ? now + step : std::min(std::max(due, now + step), end);
+        run_for(machine::to_seconds(next - now));
+        board.refresh(now);
+    }
+    return true;
 }
 
 void TouchBench::set(std::string_view path, double value) {

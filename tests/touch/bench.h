@@ -23,6 +23,8 @@ std::string wrong_with(std::string_view json);
 class TouchBench {
   public:
     explicit TouchBench(std::string_view json = made_up_screen);
+    TouchBench(std::shared_ptr<const behaviour::Profile> profile,
+               std::shared_ptr<const screen::ScreenProfile> own, const machine::Services& services);
 
     void run_for(double seconds);
     /// A finger for so long; runs on until what comes of it is done.
@@ -31,6 +33,9 @@ class TouchBench {
     std::string tap(std::string_view control, double seconds = 0.12);
     void world(std::string_view phrase);
     double field(std::string_view path) const;
+    std::string text_field(std::string_view path) const;
+    /// Runs on until it has that value, to the millisecond; false when it has not within so long.
+    bool run_until_field(std::string_view path, double value, double within_s);
     void set(std::string_view path, double value);
 
     screen::Scene scene();
