@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "emulator/fault/printer_fault.h"
+#include "emulator/host/board_display.h"
 #include "emulator/host/screen_files.h"
 #include "emulator/link/host_error.h"
 #include "emulator/link/ports.h"
@@ -72,10 +73,18 @@ void BoardUnit::set_up() {
     options.pacing = options_.pacing;
     options.seed = options_.seed;
     options.observer = &observers_;
+    if (!profile_->screen.empty()) {
+        options.front = &screen_.emplace(host::load_own_screen(profile_->screen));
+    }
     board_.emplace(profile_, services, options);
     link_.emplace(make_wire(), *clock_, fault::Direction::to_board);
     add_faults();
     live_.emplace(*board_, *link_, *clock_, &observers_);
+    if (screen_) {
+        display_ = std::make_unique<host::BoardDisplay>(*screen_, *board_);
+    } else if (plug_) {
+        display_ = std::make_unique<host::PlugDisplay>(*plug_);
+    }
 }
 
 void BoardUnit::add_faults() {
@@ -110,7 +119,7 @@ void BoardUnit::set_up_disks(machine::Services& services) {
 void BoardUnit::open_target(std::function<void()> quit) {
     target_.emplace(host::LiveTarget::Parts{loop_, *board_, *live_, *clock_, *link_, &*link_, std::move(quit),
                                             options_.speed.max ? 0 : options_.speed.factor,
-                                            plug_ ? nullptr : host::screen_of(*profile_)});
+                                            plug_ ? nullptr : host::screen_of(*profile_), display_.get()});
     if (plug_) {
         target_->show(*plug_);
     }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "emulator/board/board.h"
+#include "emulator/control/display.h"
 #include "emulator/host/clock.h"
 #include "emulator/host/control_server.h"
 #include "emulator/host/eeprom_file.h"
@@ -21,6 +22,7 @@
 #include "emulator/link/udp_socket.h"
 #include "emulator/machine/memory_volume.h"
 #include "emulator/script/scenario.h"
+#include "emulator/touch/touch_screen.h"
 #include "tools/run_options.h"
 
 namespace fauxboard::tools {
@@ -60,6 +62,8 @@ class BoardUnit {
     host::FaultyLink& link() { return *link_; }
     host::Clock& clock() { return *clock_; }
     host::ScreenPlug* plug() { return plug_ ? &*plug_ : nullptr; }
+    /// What shows the board to a person; null when nothing does.
+    control::Display* display() { return display_.get(); }
     /// Null before open_target().
     host::LiveTarget* target() { return target_ ? &*target_ : nullptr; }
     /// " on ..., its USB port on ...", for people.
@@ -87,8 +91,10 @@ class BoardUnit {
     std::optional<host::ScreenPlug> plug_;
     std::optional<host::FaultyLink> link_;
     std::unique_ptr<link::Link> host_link_;  ///< the board's USB port
+    std::optional<touch::TouchScreen> screen_;  ///< part of the board
     std::optional<board::Board> board_;
     std::optional<host::LiveBoard> live_;
+    std::unique_ptr<control::Display> display_;
     std::unique_ptr<link::UdpSocket> udp_;
     std::optional<host::NetworkLine> network_;
     std::optional<host::LiveTarget> target_;

@@ -96,7 +96,8 @@ void Run::open_script() {
     }
     script_.emplace(host::ScriptHost::Parts{
                         unit_.live(), unit_.clock(), &unit_.link(), unit_.plug(), [this] { loop_.stop(); },
-                        [this](std::string_view text) { unit_.say(board::Level::info, text); }},
+                        [this](std::string_view text) { unit_.say(board::Level::info, text); },
+                        unit_.display()},
                     scenario_, options_.speed);
     observers_.add(*script_);
     if (unit_.target() != nullptr) {

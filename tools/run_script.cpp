@@ -71,11 +71,7 @@ std::shared_ptr<const script::Scenario> plan_script(RunOptions& options) {
     if (options.screen.empty() && !options.line_given) {
         options.screen = head.screen;
     }
-    script::Cast cast;
-    cast.profile = host::load_profile_by_name(options.profile);
-    if (!options.screen.empty()) {
-        cast.screen = host::load_screen_by_name(options.screen);
-    }
+    const script::Cast cast = host::make_cast(options.profile, options.screen);
     script::Arguments arguments;
     for (const std::string& each : options.params) {
         const std::size_t sign = each.find('=');

@@ -7,7 +7,8 @@ say() { printf '\n== %s\n' "$*"; }
 
 # What the program is built with, and what its tests want besides.
 build_packages=(g++ cmake ninja-build pkg-config libserialport-dev nlohmann-json3-dev libspdlog-dev libfmt-dev
-                libcli11-dev libncurses-dev libre2-dev libpng-dev libmicrohttpd-dev libjs-dygraphs)
+                libcli11-dev libncurses-dev libre2-dev libpng-dev libmicrohttpd-dev libjs-dygraphs
+                libfreetype-dev fonts-dejavu-core)
 test_packages=(doctest-dev libbenchmark-dev clang libclang-rt-dev)
 # Of these only the files are taken: what they depend on is for uses that nobody has here.
 header_packages=(libvalijson-dev)

@@ -125,6 +125,7 @@ class Profile {
   public:
     std::string name;
     std::string title;
+    std::string screen;              ///< name of the screen that is part of the board; empty: it has none
     std::vector<std::string> files;  ///< what it was read from, base first
     LineConfig line;
     SimTime tick{50'000};

@@ -54,6 +54,7 @@ void Loader::load_head(ObjectReader& root) {
     root.required("name");
     root.text("name", profile_->name, 64);
     root.text("title", profile_->title, 256);
+    root.text("screen", profile_->screen, 256);
     root.get("extends");  // resolved before
     constexpr std::array<std::string_view, 2> protocols{"smartto", "gcode"};
     std::size_t protocol = 0;

@@ -70,6 +70,19 @@ void Board::notice(Level level, std::string_view text) {
     }
 }
 
+/// The built-in front, if there is one, acts on the machine.
+template <class Call>
+void Board::call_front(Call&& call) {
+    if (options_.front == nullptr) {
+        return;
+    }
+    ActionContext context{*machine_, variables_, *this};
+    call(*options_.front, context);
+    if (context.reset) {
+        power_on(time_);
+    }
+}
+
 void Board::power_on(SimTime now) {
     time_ = power_on_ = now;
     last_tick_ = now - profile_->tick;
@@ -100,6 +113,7 @@ void Board::power_on(SimTime now) {
     for (const Send& entry : profile_->boot) {
         send(entry, scope());
     }
+    call_front([now](Front& front, ActionContext& context) { front.power_on(now, context); });
 }
 
 void Board::reload(std::shared_ptr<const behaviour::Profile> profile) {
@@ -291,6 +305,7 @@ void Board::run_events() {
         if (!rules.empty()) {
             run_rules(rules, nullptr);
         }
+        call_front([&](Front& front, ActionContext& context) { front.on_event(time_, *event, context); });
     }
     machine_->events.clear();
     notice(Level::error, "the profile's events raise each other without end; the rest was dropped");
@@ -314,7 +329,7 @@ SimTime Board::next_due() const {
     }
     const SimTime wheel =
         wheel_.next_slot() <= time_ ? wheel_.next_slot() : wheel_.next_due(scope(), machine_->restless());
-    return std::min({machine_->next_event(), next_tick(), wheel, unfinished_due_});
+    return std::min({machine_->next_event(), next_tick(), wheel, unfinished_due_, front_due()});
 }
 
 /// A time before which nothing is due, found without asking which of the wheel's slots may send.
@@ -322,7 +337,7 @@ SimTime Board::nothing_before() const {
     if (machine_->hung()) {
         return machine_->next_event();
     }
-    return std::min({machine_->next_event(), next_tick(), wheel_.next_slot(), unfinished_due_});
+    return std::min({machine_->next_event(), next_tick(), wheel_.next_slot(), unfinished_due_, front_due()});
 }
 
 /// Goes through the slots before `end`. Those passed over because nothing could come of them are among them,
@@ -381,6 +396,10 @@ void Board::step(SimTime due) {
         port(Channel::main).splitter.end_line([this](std::string_view line) {
             take_line(Channel::main, line);
         });
+    }
+    if (!machine_->hung() && front_due() <= time_) {
+        call_front([this](Front& front, ActionContext& context) { front.advance(time_, context); });
+        settle();
     }
     run_slots(time_ + SimTime{1});
     if (!machine_->hung() && next_tick() <= time_) {

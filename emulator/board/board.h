@@ -12,6 +12,7 @@
 
 #include "emulator/behaviour/notice.h"
 #include "emulator/behaviour/profile.h"
+#include "emulator/board/front.h"
 #include "emulator/board/message_queue.h"
 #include "emulator/board/network_outbox.h"
 #include "emulator/board/output_buffer.h"
@@ -67,6 +68,7 @@ struct Options {
     bool pacing = true;  ///< replies leave on the transmit tick; without it, at once
     std::uint64_t seed = 1;
     Observer* observer = nullptr;
+    Front* front = nullptr;  ///< outlives the board
 };
 
 /// Everything that was counted since the board was made.
@@ -188,6 +190,11 @@ class Board final : private behaviour::NoticeSink {
     bool run_rules(const std::vector<behaviour::Rule>& rules, const protocol::Command* command);
     void run_events();
     void settle();
+    template <class Call>
+    void call_front(Call&& call);
+    SimTime front_due() const {
+        return options_.front == nullptr ? machine::never : options_.front->next_due(*machine_);
+    }
     void send(const behaviour::Send& send, const behaviour::Scope& scope);
     /// A message while it is written.
     struct Draft {

@@ -137,7 +137,7 @@ std::span<const Op> ops() {
     static const std::vector<Op> table = [] {
         std::vector<Op> all;
         for (const auto part : {rows::value_ops(), rows::machine_ops(), rows::fault_ops(), rows::view_ops(),
-                                rows::session_ops()}) {
+                                rows::display_ops(), rows::session_ops()}) {
             all.insert(all.end(), part.begin(), part.end());
         }
         return all;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "emulator/board/board.h"
+#include "emulator/control/display.h"
 #include "emulator/control/error.h"
 #include "emulator/fault/fault_control.h"
 
@@ -65,6 +66,8 @@ class Target {
         static View nothing;
         return nothing;
     }
+    /// What shows the board to a person; null when nothing does.
+    virtual Display* display() { return nullptr; }
 };
 
 }  // namespace fauxboard::control

@@ -42,6 +42,7 @@ class LiveTarget final : public LiveObserver, private control::Target, private c
         double speed = 1;             ///< virtual seconds per second; 0: as fast as it goes
         /// The touch screen that looks on, null where none is known for the board.
         std::shared_ptr<const screen::ScreenProfile> screen;
+        control::Display* display = nullptr;  ///< what shows the board; null: nothing does
     };
     /// All of it outlives this. Follows `live`, so make it before that is started; hand it to the observers.
     explicit LiveTarget(Parts parts);
@@ -78,6 +79,7 @@ class LiveTarget final : public LiveObserver, private control::Target, private c
     SimTime skip(SimTime by) override;
     void quit() override { parts_.loop.post(parts_.quit); }
     fault::FaultControl* faults() override { return parts_.faults; }
+    control::Display* display() override { return parts_.display; }
     control::Json status() const override;
     void on_wanted() override;
     control::View& view() override { return *this; }

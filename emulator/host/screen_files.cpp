@@ -56,6 +56,18 @@ std::shared_ptr<const screen::ScreenProfile> load_screen_by_name(std::string_vie
     throw behaviour::ProfileError({problem});
 }
 
+std::shared_ptr<const screen::ScreenProfile> load_own_screen(std::string_view name) {
+    auto out = load_screen_by_name(name);
+    if (!out->display) {
+        behaviour::Problem problem;
+        problem.file = out->files.back();
+        problem.message =
+            "this screen hangs on a line; expected one with a \"display\", to be part of a board";
+        throw behaviour::ProfileError({problem});
+    }
+    return out;
+}
+
 std::vector<ProfileEntry> list_screens() {
     std::vector<fs::path> folders = profile_folders();
     std::transform(folders.begin(), folders.end(), folders.begin(),

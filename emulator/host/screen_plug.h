@@ -32,6 +32,9 @@ class ScreenPlug {
     screen::PressResult press(std::string_view path, std::size_t row = 0, std::optional<double> input = {}) {
         return live_->press(path, row, input);
     }
+    screen::PressResult touch(std::size_t button, std::size_t row) {
+        return live_->touch(button, row, std::nullopt);
+    }
 
   private:
     class End;

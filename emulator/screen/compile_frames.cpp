@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 
+#include "emulator/behaviour/fields.h"
 #include "emulator/behaviour/wire_text.h"
 #include "emulator/screen/screen_compiler.h"
 
@@ -64,6 +65,19 @@ ValueInfo Compiler::value_info(const std::string& name, const Json& node, const 
     info.name = name;
     ObjectReader reader(node, pointer, findings);
     pick(reader, "kind", kind_names, info.kind);
+    std::string field;
+    if (reader.text("field", field); reader.has("field")) {
+        info.field = behaviour::find_field(field);
+        if (info.field == nullptr) {
+            findings.add(reader.pointer("field"), fmt::format("there is no field \"{}\"", field),
+                         std::string(behaviour::nearest_field(field)));
+        } else if (!profile.display) {
+            findings.add(reader.pointer("field"),
+                         "a screen that hangs on a line sees no field of the machine");
+        } else if (info.field->type == behaviour::FieldType::text) {
+            info.kind = ValueKind::text;
+        }
+    }
     reader.text("unit", info.unit);
     reader.text("help", info.help);
     if (info.kind == ValueKind::number) {

@@ -204,7 +204,7 @@ void Screen::assume(const std::vector<Assign>& assigns, const Scope& scope) {
     for (const Assign& assign : assigns) {
         const bool text = profile_->values.at(assign.value).kind == ValueKind::text;
         fresh.push_back(
-            {text ? 0 : assign.expression.evaluate(scope), text ? assign.text.render(scope) : "", {}});
+            {text ? 0 : assign.expression.evaluate(scope), text ? assign.text.render(scope) : "", {}, {}});
     }
     for (std::size_t i = 0; i < assigns.size(); ++i) {
         values_[assigns[i].value].number = fresh[i].number;

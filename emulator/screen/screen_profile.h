@@ -11,14 +11,11 @@
 
 #include "emulator/behaviour/source.h"
 #include "emulator/machine/sim_time.h"
+#include "emulator/screen/display.h"
 #include "emulator/screen/expression.h"
 #include "emulator/screen/values.h"
 
 namespace fauxboard::screen {
-
-using machine::SimTime;
-
-inline constexpr std::size_t no_page = static_cast<std::size_t>(-1);
 
 /// How the screen hears and speaks.
 struct LineRules {
@@ -55,20 +52,6 @@ struct Read {
     std::string why;         ///< said when it is outside, too long or without end
     std::string bug;         ///< said whenever it is read: the screen takes it as something else
     std::vector<Read> then;  ///< read only if this one was found, from where it ended
-};
-
-/// What a page change leads to. The first target whose conditions hold.
-struct Target {
-    enum class Where : std::uint8_t { page, back, before };
-    std::vector<Condition> when;
-    Where where = Where::page;
-    std::size_t page = no_page;
-};
-
-struct Assign {
-    std::size_t value = 0;
-    Template text;          ///< of a text value
-    Expression expression;  ///< of a number
 };
 
 struct Send {
@@ -132,6 +115,7 @@ struct Button {
     SimTime settle{0};  ///< the machine is busy so long after the last expectation
     std::optional<Input> input;
     std::optional<std::size_t> rows;  ///< stands once per entry of this list
+    std::optional<Control> control;   ///< on a board's own screen
 };
 
 struct Page {
@@ -146,6 +130,7 @@ struct Page {
     std::vector<Expectation> expect;     ///< what must come back then
     bool stays = false;                  ///< does not fall back when nobody touches it
     std::vector<std::string> opened_by;  ///< bodies of frames that open it, for the tour
+    PageFace face;                       ///< on a board's own screen
 };
 
 /// A screen, checked and compiled. Immutable; many screens may share it.
@@ -167,6 +152,7 @@ class ScreenProfile {
     SimTime silence{500'000};          ///< so long the tour listens where nothing must come
     std::vector<Prepare> tour_first;   ///< before the first button
     std::vector<std::string> unasked;  ///< frames and lines the board sends by itself
+    std::optional<Display> display;    ///< of a board's own screen; nothing: it hangs on a line
 
     std::optional<std::size_t> find_page(std::string_view path) const;
     /// The names of the frames that set this value: "L2, L6".

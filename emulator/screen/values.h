@@ -9,6 +9,11 @@
 #include <string_view>
 #include <vector>
 
+namespace fauxboard::behaviour {
+struct Field;
+struct List;
+}  // namespace fauxboard::behaviour
+
 namespace fauxboard::screen {
 
 enum class ValueKind : std::uint8_t { number, text, list };
@@ -23,6 +28,9 @@ struct ValueInfo {
     std::string start_text;                     ///< the same for texts
     std::map<std::int64_t, std::string> names;  ///< words for whole numbers; may be empty
     std::size_t most = 0;                       ///< lists: entries it holds at most
+    const behaviour::Field* field = nullptr;    ///< a board's own screen: the machine's value; else its own
+    const behaviour::List* source = nullptr;    ///< the same of a list
+    std::vector<std::string> columns;           ///< of such a list, beside what its entries are called
 };
 
 /// The values of one screen, in the order of the declarations.
@@ -30,6 +38,7 @@ struct Shown {
     double number = 0;  ///< of a list: nothing; its length is its number
     std::string text;
     std::vector<std::string> list;
+    std::vector<std::vector<std::string>> cells;  ///< of each entry: its columns; empty when it has none
 };
 
 /// All declarations of a profile. A value is known by its index from then on.
@@ -38,6 +47,10 @@ class ValueTable {
     /// False when the name is taken.
     bool add(ValueInfo info);
     std::optional<std::size_t> find(std::string_view name) const;
+    /// From now on want() takes in what the machine has: the screen of a board's own reads it directly.
+    void open_to_machine() { machine_ = true; }
+    /// As find(); a field or a list of the machine becomes a value when it is first asked for.
+    std::optional<std::size_t> want(std::string_view name);
     const ValueInfo& at(std::size_t id) const { return infos_[id]; }
     std::size_t size() const { return infos_.size(); }
     /// The declared name most like a wrong one, or "".
@@ -48,6 +61,7 @@ class ValueTable {
   private:
     std::vector<ValueInfo> infos_;
     std::map<std::string, std::size_t, std::less<>> ids_;
+    bool machine_ = false;
 };
 
 /// What an expression sees while it is evaluated.
@@ -56,6 +70,7 @@ struct Scope {
     std::size_t row = 0;        ///< of a button that stands once per entry of a list: 1 is the first
     std::string_view row_text;  ///< that entry
     double input = 0;           ///< the number a person typed in
+    std::span<const std::string> row_cells = {};  ///< columns of that entry
 };
 
 /// The number as the screens print it: `decimals` digits, never "-0.00".

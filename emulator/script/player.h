@@ -99,6 +99,9 @@ class Player final : public board::Observer {
     void in_vain(Branch& branch, const Step& step, const std::string& time);
     bool see(Branch& branch, const Passed& passed);
     bool holds(const Trigger& trigger);
+    Json look() const;
+    std::string page_shown() const;
+    std::string text_shown() const;
     void guard(const Passed& passed);
     void guard_states();
     SimTime real_limit(const Step& step) const;

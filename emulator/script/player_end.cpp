@@ -79,7 +79,7 @@ std::string Player::explain(const Trigger& trigger) const {
         return fmt::format("{}", fmt::join(words, ", "));
     }
     if (trigger.is_state()) {
-        return fmt::format("it shows the page \"{}\"", stage_->screen()->page().path);
+        return fmt::format("it shows the page \"{}\"", page_shown());
     }
     const std::pair<Talk::From, const char*> speaking = speaker(trigger.kind);
     const Talk::From from = speaking.first;

@@ -60,7 +60,7 @@ ValueTable table() {
 
 std::string fault(std::string_view source) {
     try {
-        const ValueTable values = table();
+        ValueTable values = table();
         const Template text(source, values, {});
         return {};
     } catch (const behaviour::ExpressionError& error) {
@@ -71,7 +71,7 @@ std::string fault(std::string_view source) {
 }  // namespace
 
 TEST_CASE("expressions and templates") {
-    const ValueTable values = table();
+    ValueTable values = table();
     std::vector<Shown> now(4);
     now[0].number = 7;
     now[1].number = -0.004;
