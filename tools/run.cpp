@@ -16,6 +16,7 @@
 #include "emulator/host/folder_card.h"
 #include "emulator/host/job_place_file.h"
 #include "emulator/host/json_log.h"
+#include "emulator/host/line_faults.h"
 #include "emulator/host/line_log.h"
 #include "emulator/host/live_board.h"
 #include "emulator/host/network_line.h"
@@ -99,7 +100,9 @@ class Run {
     std::unique_ptr<link::Link> wire_;  ///< the line as it is, if it leads out of this process
     std::optional<host::ScreenPlug> plug_;
     std::optional<host::FaultyLink> link_;
-    std::unique_ptr<link::Link> host_link_;  ///< the board's USB port
+    std::unique_ptr<link::Link> host_wire_;  ///< the board's USB port as it is
+    std::optional<host::FaultyLink> host_link_;
+    std::optional<host::LineFaults> faults_;
     std::optional<board::Board> board_;
     std::optional<host::LiveBoard> live_;
     std::unique_ptr<link::UdpSocket> udp_;
@@ -164,10 +167,15 @@ void Run::set_up() {
     options.observer = &observers_;
     board_.emplace(profile_, services, options);
     link_.emplace(make_wire(), *clock_, fault::Direction::to_board);
+    if (options_.host.wanted()) {
+        host_wire_ = make_host_link();
+        host_link_.emplace(*host_wire_, *clock_, fault::Direction::to_board);
+    }
+    faults_.emplace(*link_, host_link_ ? &*host_link_ : nullptr);
     for (const std::string& text : options_.faults) {
         const fault::FaultSpec spec = fault::fault_from_text(text);
         if (!fault::is_for_printer(spec)) {
-            link_->add(spec);
+            faults_->add(spec);
         } else if (board_->machine().faults.add(SimTime{0}, fault::to_request(spec)) == 0) {
             throw fault::FaultSpecError({fmt::format("fault \"{}\": {}", text,
                                                      board_->machine().faults.refusal(*spec.kind->printer))});
@@ -197,9 +205,9 @@ void Run::open_control() {
     if (options_.control.empty()) {
         return;
     }
-    control_.emplace(
-        host::ControlServer::Parts{loop_, *board_, *live_, *clock_, *link_, &*link_, [this] { loop_.stop(); },
-                                   [this](std::string_view text) { say(board::Level::info, text); }});
+    control_.emplace(host::ControlServer::Parts{
+        loop_, *board_, *live_, *clock_, *link_, &*faults_, [this] { loop_.stop(); },
+        [this](std::string_view text) { say(board::Level::info, text); }});
     observers_.add(*control_);
     control_->open(options_.control);
 }
@@ -208,10 +216,10 @@ void Run::open_script() {
     if (!scenario_) {
         return;
     }
-    script_.emplace(
-        host::ScriptHost::Parts{*live_, *clock_, &*link_, plug_ ? &*plug_ : nullptr, [this] { loop_.stop(); },
-                                [this](std::string_view text) { say(board::Level::info, text); }},
-        scenario_, options_.speed);
+    script_.emplace(host::ScriptHost::Parts{*live_, *clock_, &*faults_, plug_ ? &*plug_ : nullptr,
+                                            [this] { loop_.stop(); },
+                                            [this](std::string_view text) { say(board::Level::info, text); }},
+                    scenario_, options_.speed);
     observers_.add(*script_);
 }
 
@@ -223,7 +231,7 @@ ExitCode Run::outcome() {
     script_->interrupt("from outside");
     board_->refresh(board_->time());
     script::Json faults = script::Json::array();
-    for (const fault::FaultStatus& status : link_->list()) {
+    for (const fault::FaultStatus& status : faults_->list()) {
         faults.push_back(fault::status_to_json(status));
     }
     for (const machine::Fault& broken : board_->machine().faults.list()) {
@@ -297,7 +305,7 @@ void Run::say_summary() {
                     machine::to_seconds(live_->now()), c.lines_received, c.lines_sent, c.bad_frames,
                     board_->lines_too_long(), c.unknown_codes, c.unmatched, c.requests_lost, c.messages_lost,
                     c.lines_cut, l.bytes_in, l.bytes_out, l.bytes_lost));
-    for (const fault::FaultStatus& status : link_->list()) {
+    for (const fault::FaultStatus& status : faults_->list()) {
         err_.write(host::fault_sentence(status) + "\n");
     }
     for (const machine::Fault& broken : board_->machine().faults.list()) {
@@ -318,8 +326,7 @@ ExitCode Run::operator()() {
     open_script();
     open_network();
     link_->open(*live_);
-    if (options_.host.wanted()) {
-        host_link_ = make_host_link();
+    if (host_link_) {
         host_link_->open(live_->attach(board::Channel::host, *host_link_));
     }
     say_ready();
