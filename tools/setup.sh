@@ -7,7 +7,7 @@ say() { printf '\n== %s\n' "$*"; }
 
 build_packages=(g++ cmake ninja-build pkg-config libserialport-dev nlohmann-json3-dev libspdlog-dev libfmt-dev
                 libcli11-dev libvalijson-dev libncurses-dev libre2-dev libpng-dev doctest-dev libbenchmark-dev)
-test_packages=(clang libclang-rt-dev)
+test_packages=(clang libclang-rt-dev printrun-common python3-serial)
 
 # install PACKAGE...: those of them that are missing.
 install() {
