@@ -78,6 +78,11 @@ void BoardUnit::set_up() {
     }
     board_.emplace(profile_, services, options);
     link_.emplace(make_wire(), *clock_, fault::Direction::to_board);
+    if (options_.host.wanted()) {
+        host_wire_ = make_host_link();
+        host_link_.emplace(*host_wire_, *clock_, fault::Direction::to_board);
+    }
+    faults_.emplace(*link_, host_link_ ? &*host_link_ : nullptr);
     add_faults();
     live_.emplace(*board_, *link_, *clock_, &observers_);
     if (screen_) {
@@ -91,7 +96,7 @@ void BoardUnit::add_faults() {
     for (const std::string& text : options_.faults) {
         const fault::FaultSpec spec = fault::fault_from_text(text);
         if (!fault::is_for_printer(spec)) {
-            link_->add(spec);
+            faults_->add(spec);
         } else if (board_->machine().faults.add(SimTime{0}, fault::to_request(spec)) == 0) {
             throw fault::FaultSpecError({fmt::format(
                 "fault \"{}\": {}", text, board_->machine().faults.refusal(*spec.kind->printer))});
@@ -117,7 +122,7 @@ void BoardUnit::set_up_disks(machine::Services& services) {
 }
 
 void BoardUnit::open_target(std::function<void()> quit) {
-    target_.emplace(host::LiveTarget::Parts{loop_, *board_, *live_, *clock_, *link_, &*link_, std::move(quit),
+    target_.emplace(host::LiveTarget::Parts{loop_, *board_, *live_, *clock_, *link_, &*faults_, std::move(quit),
                                             options_.speed.max ? 0 : options_.speed.factor,
                                             plug_ ? nullptr : host::screen_of(*profile_), display_.get()});
     if (plug_) {
@@ -141,8 +146,7 @@ void BoardUnit::open() {
         udp_->open(network_.emplace(*live_, *udp_, &observers_));
     }
     link_->open(*live_);
-    if (options_.host.wanted()) {
-        host_link_ = make_host_link();
+    if (host_link_) {
         host_link_->open(live_->attach(board::Channel::host, *host_link_));
     }
 }
@@ -215,7 +219,7 @@ std::string BoardUnit::summary() const {
         machine::to_seconds(live_->now()), c.lines_received, c.lines_sent, c.bad_frames,
         board_->lines_too_long(), c.unknown_codes, c.unmatched, c.requests_lost, c.messages_lost, c.lines_cut,
         l.bytes_in, l.bytes_out, l.bytes_lost);
-    for (const fault::FaultStatus& status : link_->list()) {
+    for (const fault::FaultStatus& status : faults_->list()) {
         out += host::fault_sentence(status) + "\n";
     }
     for (const machine::Fault& broken : board_->machine().faults.list()) {

@@ -14,6 +14,7 @@
 #include "emulator/host/faulty_link.h"
 #include "emulator/host/folder_card.h"
 #include "emulator/host/job_place_file.h"
+#include "emulator/host/line_faults.h"
 #include "emulator/host/live_board.h"
 #include "emulator/host/live_target.h"
 #include "emulator/host/network_line.h"
@@ -60,6 +61,8 @@ class BoardUnit {
     board::Board& board() { return *board_; }
     host::LiveBoard& live() { return *live_; }
     host::FaultyLink& link() { return *link_; }
+    /// Of both lines.
+    host::LineFaults& faults() { return *faults_; }
     host::Clock& clock() { return *clock_; }
     host::ScreenPlug* plug() { return plug_ ? &*plug_ : nullptr; }
     /// What shows the board to a person; null when nothing does.
@@ -90,7 +93,9 @@ class BoardUnit {
     std::unique_ptr<link::Link> wire_;  ///< the line as it is, if it leads out of this process
     std::optional<host::ScreenPlug> plug_;
     std::optional<host::FaultyLink> link_;
-    std::unique_ptr<link::Link> host_link_;  ///< the board's USB port
+    std::unique_ptr<link::Link> host_wire_;  ///< the board's USB port as it is
+    std::optional<host::FaultyLink> host_link_;
+    std::optional<host::LineFaults> faults_;
     std::optional<touch::TouchScreen> screen_;  ///< part of the board
     std::optional<board::Board> board_;
     std::optional<host::LiveBoard> live_;

@@ -30,6 +30,8 @@ constexpr const char* legend =
     R"(Forms, told apart by their content, line by line:
   {"t": 16.451778, "from": "screen", "line": "..."}   what run, tap and replay record
   15:15:12.123456789 - line                           one direction a file; several are merged by time
+  2024-01-02 10:00:00,100 - Send: line                OctoPrint's serial.log; without times, its terminal's
+                                                      Send: and Recv:, printcore's SENT: and RECV:
   anything else                                       the line itself
 Marks at the start of a line: ! its checksum is wrong, ? its code or a field is unknown, x it cannot be read,
 * anything else: with --screen, what that screen would have ignored, missed, cut, dropped, misread or crashed on.
@@ -87,8 +89,12 @@ ExitCode decode(const DecodeOptions& options) {
             judges.push_back(record::screen_judge(host::load_screen_by_name(options.screen)));
         }
         record::Transcripts transcripts(inputs.take());
+        std::size_t lines = 0;
+        bool sense = false;
         while (auto entry = transcripts.next()) {
             const record::JudgedLine line = record::judge(std::move(*entry), judges);
+            ++lines;
+            sense = sense || record::makes_sense(line);
             const std::string text = options.json ? record::json_line(line) : record::text_line(line);
             std::fwrite(text.data(), 1, text.size(), stdout);
             if (live && std::cin.rdbuf()->in_avail() <= 0) {
@@ -99,6 +105,10 @@ ExitCode decode(const DecodeOptions& options) {
             }
         }
         std::fflush(stdout);
+        if (lines != 0 && !sense) {
+            return complain("decode", ExitCode::bad_input,
+                            "nothing here is of a form that decode knows; its --help names those.");
+        }
         return ExitCode::ok;
     } catch (const behaviour::ProfileError& error) {
         return complain("decode", ExitCode::bad_input, error.what());

@@ -9,6 +9,7 @@
 
 #include "emulator/fault/printer_fault.h"
 #include "emulator/host/json_log.h"
+#include "emulator/host/line_faults.h"
 #include "emulator/host/line_log.h"
 #include "emulator/host/profile_files.h"
 #include "emulator/host/profile_watch.h"
@@ -95,7 +96,7 @@ void Run::open_script() {
         return;
     }
     script_.emplace(host::ScriptHost::Parts{
-                        unit_.live(), unit_.clock(), &unit_.link(), unit_.plug(), [this] { loop_.stop(); },
+                        unit_.live(), unit_.clock(), &unit_.faults(), unit_.plug(), [this] { loop_.stop(); },
                         [this](std::string_view text) { unit_.say(board::Level::info, text); },
                         unit_.display()},
                     scenario_, options_.speed);
@@ -113,7 +114,7 @@ ExitCode Run::outcome() {
     script_->interrupt("from outside");
     unit_.board().refresh(unit_.board().time());
     script::Json faults = script::Json::array();
-    for (const fault::FaultStatus& status : unit_.link().list()) {
+    for (const fault::FaultStatus& status : unit_.faults().list()) {
         faults.push_back(fault::status_to_json(status));
     }
     for (const machine::Fault& broken : unit_.board().machine().faults.list()) {

@@ -100,10 +100,12 @@ ExitCode tour(const ScreenOptions& options) {
     }
     const std::string& name = session.screen().profile().name;
     const auto& findings = session.screen().findings();
+    const screen::ScreenCounters& counters = session.screen().counters();
+    const bool talks = session.screen().profile().talk.queued;
     if (options.json) {
-        print(screen::tour_json(name, user.results(), findings));
+        print(screen::tour_json(name, user.results(), findings, talks ? &counters : nullptr));
     } else {
-        print(screen::tour_table(user.results()));
+        print(screen::tour_table(user.results()) + (talks ? screen::talk_text(counters) : ""));
         if (!findings.empty()) {
             print("\nWhat this screen did not take as it was meant:\n" + screen::findings_text(findings));
         }

@@ -386,11 +386,22 @@ SimTime Board::advance(SimTime now) {
     return next_due();
 }
 
+/// Carries out what the machine asks of itself.
+void Board::run_own_requests() {
+    while (const auto line = machine_->take_request()) {
+        unasked_ = true;
+        execute(Channel::main, protocol::unframe_host_line(*line).body);
+        unasked_ = false;
+        settle();
+    }
+}
+
 void Board::step(SimTime due) {
     time_ = std::max(time_, due);
     machine_->advance(time_);
     settle();
     run_host();
+    run_own_requests();
     if (unfinished_due_ <= time_) {
         unfinished_due_ = never;
         port(Channel::main).splitter.end_line([this](std::string_view line) {

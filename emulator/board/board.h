@@ -180,6 +180,7 @@ class Board final : private behaviour::NoticeSink {
     void take_host_line(std::string_view line);
     void tell_received(Channel channel, std::string_view line, Verdict verdict);
     void run_host();
+    void run_own_requests();
     bool unframe(std::string_view line, std::string_view& body) const;
     void execute(Channel channel, std::string_view body);
     void take_piece(std::uint64_t peer, const protocol::Chunk& chunk);
@@ -227,6 +228,7 @@ class Board final : private behaviour::NoticeSink {
     MessageQueue inbox_;             ///< of the main line
     MessageQueue outbox_;            ///< same
     MessageQueue host_inbox_;        ///< of the USB side
+    bool unasked_ = false;           ///< a request is the machine's own: nobody is to be answered
     Channel asker_ = Channel::main;  ///< whom a frame goes to that does not say it itself
     std::vector<char> scratch_;
     std::vector<double> variables_;

@@ -21,7 +21,7 @@ constexpr std::string_view acknowledgement = "ok";
 }  // namespace
 
 void Board::send(const Send& entry, const Scope& here) {
-    if (machine_->hung() || !behaviour::all_hold(entry.when, here)) {
+    if (unasked_ || machine_->hung() || !behaviour::all_hold(entry.when, here)) {
         return;
     }
     const Frame& frame = profile_->frames[entry.frame];

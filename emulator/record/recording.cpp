@@ -59,18 +59,25 @@ bool RecordingReader::read_text() {
 
 std::optional<RecordedLine> RecordingReader::next() {
     while (read_text()) {
-        if (text_.find_first_not_of(" \t\r") != std::string::npos) {
-            return parse();
+        if (text_.find_first_not_of(" \t\r") == std::string::npos) {
+            continue;
+        }
+        if (auto line = parse()) {
+            return line;
         }
     }
     return std::nullopt;
 }
 
-RecordedLine RecordingReader::parse() {
+/// Nothing for a note, which `decode` makes of what a host program logged of itself.
+std::optional<RecordedLine> RecordingReader::parse() {
     const auto entry = nlohmann::json::parse(text_, nullptr, false);
     if (!entry.is_object()) {
         fail(entry.is_discarded() ? "not JSON; expected one JSON object a line"
                                   : found(entry) + "; expected an object with t, from, and line or do");
+    }
+    if (entry.contains("note") && !entry.contains("t")) {
+        return std::nullopt;
     }
     const auto value = [&](const char* key) -> const nlohmann::json& {
         const auto hit = entry.find(key);

@@ -164,4 +164,16 @@ class Condition {
 
 bool all_hold(const std::vector<Condition>& conditions, const Scope& scope);
 
+/// A value and what it becomes.
+struct Assign {
+    std::size_t value = 0;
+    Template text;          ///< of a text value
+    Expression expression;  ///< of a number
+};
+
+/// Sets `values` as `assigns` say, each from what `scope` shows, which may be the same values: all from what
+/// they were before, so that the order does not matter.
+void assign(const std::vector<Assign>& assigns, const ValueTable& table, const Scope& scope,
+            std::span<Shown> values);
+
 }  // namespace fauxboard::screen

@@ -7,8 +7,9 @@
 namespace fauxboard::screen {
 
 std::string_view verdict_words(Verdict verdict) {
-    static constexpr std::array<std::string_view, 7> words{"ok",           "ignored", "part missed", "cut",
-                                                           "rest dropped", "misread", "would crash"};
+    static constexpr std::array<std::string_view, verdict_count> words{
+        "ok",        "ignored",    "part missed", "cut",  "rest dropped", "misread",
+        "timed out", "runs ahead", "stalls",      "jams", "would crash"};
     return words[static_cast<std::size_t>(verdict)];
 }
 

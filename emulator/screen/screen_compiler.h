@@ -45,6 +45,7 @@ struct Compiler {
     // The large parts.
     void values(const behaviour::Json& node);
     void frames(const behaviour::Json& node);
+    void talk(const behaviour::Json& node);
     void pages(const behaviour::Json& node);
     void everywhere(const behaviour::Json& node);
 
@@ -110,6 +111,8 @@ struct Compiler {
     void value_names(behaviour::ObjectReader& reader, ValueInfo& info);
     FrameRule frame(const std::string& name, const behaviour::Json& node, const std::string& pointer);
     FrameCase frame_case(behaviour::ObjectReader& reader);
+    void case_verdict(behaviour::ObjectReader& reader, FrameCase& out);
+    TalkRules::Poll poll(const behaviour::Json& node, const std::string& pointer);
     std::vector<Read> reads(behaviour::ObjectReader& reader, std::string_view key, int depth);
     Read read(const behaviour::Json& node, const std::string& pointer, int depth);
     void read_bounds(behaviour::ObjectReader& reader, Read& out);

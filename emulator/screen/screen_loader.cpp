@@ -33,6 +33,11 @@ void read_line_rules(Compiler& compiler, const Json& node, LineRules& out) {
     compiler.time(reader, "answer_after_ms", out.answer_after, 0, 1000);
     compiler.time(reader, "deaf_ms", out.deaf, 0, 60'000);
     reader.wire_text("hello", out.hello, 256);
+    reader.boolean("lf_only", out.lf_only);
+    reader.boolean("skips_blanks", out.skips_blanks);
+    number = 0;
+    reader.unsigned_integer("jams_at", number, 16, 65536);
+    out.jams_at = number;
     reader.finish();
 }
 
@@ -154,10 +159,15 @@ void check_links(Compiler& compiler) {
     reached[profile.main_page] = true;
     mark(profile.idle_target);
     for_each_effect(profile, [&](const Effect& effect) { mark(effect.leads_to); });
-    for (const auto& [code, rule] : profile.codes) {
-        for (const FrameCase& one : rule.cases)
+    const auto mark_rule = [&](const FrameRule& rule) {
+        for (const FrameCase& one : rule.cases) {
             mark(one.opens);
+        }
+    };
+    for (const auto& [code, rule] : profile.codes) {
+        mark_rule(rule);
     }
+    std::for_each(profile.words.begin(), profile.words.end(), mark_rule);
     for (const Button& button : profile.buttons) {
         mark(button.leads_to);
     }
@@ -247,6 +257,7 @@ void read_all(Compiler& compiler, const Json& root) {
         compiler.values(part("values"));
         read_page_paths(compiler, part("pages"), empty);
         compiler.frames(part("frames"));
+        compiler.talk(part("talk"));
         read_idle(compiler, part("idle"));
     }
     read_tour(compiler, part("tour"));

@@ -413,6 +413,19 @@ std::string Condition::words(const Scope& scope) const {
     }
 }
 
+void assign(const std::vector<Assign>& assigns, const ValueTable& table, const Scope& scope,
+            std::span<Shown> values) {
+    std::vector<Shown> fresh;
+    for (const Assign& one : assigns) {
+        const bool text = table.at(one.value).kind == ValueKind::text;
+        fresh.push_back({text ? 0 : one.expression.evaluate(scope), text ? one.text.render(scope) : "", {}});
+    }
+    for (std::size_t i = 0; i < assigns.size(); ++i) {
+        values[assigns[i].value].number = fresh[i].number;
+        values[assigns[i].value].text = std::move(fresh[i].text);
+    }
+}
+
 bool all_hold(const std::vector<Condition>& conditions, const Scope& scope) {
     return std::all_of(conditions.begin(), conditions.end(),
                        [&](const Condition& condition) { return condition.holds(scope); });

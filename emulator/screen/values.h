@@ -18,10 +18,14 @@ namespace fauxboard::screen {
 
 enum class ValueKind : std::uint8_t { number, text, list };
 
+/// Where a value comes from that no frame brings: the line that is being taken, or the page that is open.
+enum class ValueSource : std::uint8_t { own, line_bytes, longest_word, page };
+
 /// One thing a screen knows and may show, as its profile declares it: "nozzle.target".
 struct ValueInfo {
     std::string name;
     ValueKind kind = ValueKind::number;
+    ValueSource source = ValueSource::own;
     std::string unit;                           ///< for people; may be empty
     std::string help;                           ///< one sentence; may be empty
     double start = 0;                           ///< at power-on
