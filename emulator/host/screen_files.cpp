@@ -78,8 +78,8 @@ std::vector<ProfileEntry> list_screens() {
 std::shared_ptr<const screen::ScreenProfile> screen_of(const behaviour::Profile& profile) {
     for (auto file = profile.files.rbegin(); file != profile.files.rend(); ++file) {
         try {
-            if (const auto source = find(fs::path(*file).stem().string())) {
-                return screen::load_screen(*source, profile_finder());
+            if (const auto source = find(fs::path(*file).stem().string(), {})) {
+                return screen::load_screen(*source, find);
             }
         } catch (const behaviour::ProfileError&) {
             return nullptr;

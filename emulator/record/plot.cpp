@@ -67,7 +67,7 @@ void collect(const std::vector<detail::Said>& talk, std::string_view unit, bool 
             auto& curves = chart[name];
             curves.resize(sets);
             curves[set].push_back(
-                {said.t, fold ? machine::unfold_temperature(*field.number) : *field.number});
+                {said.t, fold ? filament::unfold_temperature(*field.number) : *field.number});
         }
     }
 }

@@ -78,10 +78,11 @@ ValueInfo Compiler::value_info(const std::string& name, const Json& node, const 
         } else if (info.field->type == behaviour::FieldType::text) {
             info.kind = ValueKind::text;
         }
-    pick(reader, "is", source_names, info.source);
+    }
+    pick(reader, "is", source_names, info.is);
     if (const bool text = info.kind == ValueKind::text;
-        info.source != ValueSource::own &&
-        (info.kind == ValueKind::list || text != (info.source == ValueSource::page))) {
+        info.is != ValueSource::own &&
+        (info.kind == ValueKind::list || text != (info.is == ValueSource::page))) {
         findings.add(reader.pointer("is"), "a page is a text, a size of the line a number");
     }
     reader.text("unit", info.unit);

@@ -119,12 +119,6 @@ struct Target {
     std::size_t page = no_page;
 };
 
-struct Assign {
-    std::size_t value = 0;
-    Template text;          ///< of a text value
-    Expression expression;  ///< of a number
-};
-
 /// One action on the machine: a row of behaviour::actions(), or a field that is set.
 struct Deed {
     struct Argument {

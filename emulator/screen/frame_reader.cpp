@@ -264,7 +264,7 @@ std::size_t longest_word(std::string_view text) {
 /// What the profile wants to know of the line itself.
 void measure(const ScreenProfile& profile, std::string_view text, std::vector<Shown>& values) {
     for (std::size_t id = 0; id < values.size(); ++id) {
-        const ValueSource source = profile.values.at(id).source;
+        const ValueSource source = profile.values.at(id).is;
         if (source == ValueSource::line_bytes) {
             values[id].number = static_cast<double>(text.size());
         } else if (source == ValueSource::longest_word) {

@@ -12,7 +12,7 @@ namespace fauxboard::screen {
 /// Values that say which page is open.
 void Screen::tell_page() {
     for (std::size_t id = 0; id < values_.size(); ++id) {
-        if (profile_->values.at(id).source == ValueSource::page) {
+        if (profile_->values.at(id).is == ValueSource::page) {
             values_[id].text = page().path;
         }
     }

@@ -418,7 +418,7 @@ void assign(const std::vector<Assign>& assigns, const ValueTable& table, const S
     std::vector<Shown> fresh;
     for (const Assign& one : assigns) {
         const bool text = table.at(one.value).kind == ValueKind::text;
-        fresh.push_back({text ? 0 : one.expression.evaluate(scope), text ? one.text.render(scope) : "", {}});
+        fresh.push_back({text ? 0 : one.expression.evaluate(scope), text ? one.text.render(scope) : "", {}, {}});
     }
     for (std::size_t i = 0; i < assigns.size(); ++i) {
         values[assigns[i].value].number = fresh[i].number;

@@ -25,7 +25,7 @@ enum class ValueSource : std::uint8_t { own, line_bytes, longest_word, page };
 struct ValueInfo {
     std::string name;
     ValueKind kind = ValueKind::number;
-    ValueSource source = ValueSource::own;
+    ValueSource is = ValueSource::own;
     std::string unit;                           ///< for people; may be empty
     std::string help;                           ///< one sentence; may be empty
     double start = 0;                           ///< at power-on
