@@ -69,6 +69,10 @@ class Run {
     void set_up_disks(machine::Services& services);
     link::Link& make_wire();
     std::unique_ptr<link::Link> make_link();
+    /// A board that can do without its screen has no line for one when only its USB side was asked for.
+    bool has_main_line() const {
+        return options_.line_given || !options_.host.wanted() || !profile_->line.optional;
+    }
     void open_script();
     ExitCode outcome();
     std::unique_ptr<link::Link> make_host_link();
@@ -123,6 +127,9 @@ link::Link& Run::make_wire() {
 }
 
 std::unique_ptr<link::Link> Run::make_link() {
+    if (!has_main_line()) {
+        return link::make_no_link();
+    }
     if (!options_.tcp.empty()) {
         return link::make_tcp_listen_link(loop_, options_.tcp);
     }
@@ -130,7 +137,7 @@ std::unique_ptr<link::Link> Run::make_link() {
         const std::string port = options_.port == "auto" ? link::pick_auto_port() : options_.port;
         return link::make_port_link(loop_, port, options_.baud != 0 ? options_.baud : profile_->line.baud);
     }
-    return link::make_pty_link(loop_, options_.pty_name);
+    return link::make_pty_link(loop_, options_.pty_name, {profile_->line.baud, true});
 }
 
 std::unique_ptr<link::Link> Run::make_host_link() {
@@ -141,7 +148,7 @@ std::unique_ptr<link::Link> Run::make_host_link() {
     if (!line.port.empty()) {
         return link::make_port_link(loop_, line.port, line.baud);
     }
-    return link::make_pty_link(loop_, line.pty_name);
+    return link::make_pty_link(loop_, line.pty_name, {0, false});
 }
 
 void Run::set_up() {
@@ -163,6 +170,7 @@ void Run::set_up() {
     options.seed = options_.seed;
     options.observer = &observers_;
     board_.emplace(profile_, services, options);
+    board_->connect(board::Channel::main, has_main_line());
     link_.emplace(make_wire(), *clock_, fault::Direction::to_board);
     for (const std::string& text : options_.faults) {
         const fault::FaultSpec spec = fault::fault_from_text(text);
