@@ -9,6 +9,7 @@
 #include "emulator/machine/memory_volume.h"
 #include "protocol/framing.h"
 #include "tests/support/board_driver.h"
+#include "tests/support/printers.h"
 
 using namespace fauxboard;
 using namespace fauxboard::testing;
@@ -133,7 +134,7 @@ TEST_CASE_FIXTURE(Bench, "host lines: every command has its ok, also one that ov
     CHECK(oks(told("", 4)) == 2);
     const std::string heating = told("M109 S200\nM108", 1);
     CHECK(oks(heating) == 2);
-    CHECK_FALSE(driver.machine().wait.active());
+    CHECK_FALSE(filament_printer(driver.machine()).wait.active());
     CHECK(oks(told("G28\nM410", 1)) == 2);
     CHECK(oks(told("G4 S2\nM105", 3)) == 2);
 }

@@ -248,8 +248,8 @@ TEST_CASE_FIXTURE(Marlin, "Marlin: the emergency parser acts on every line, numb
 TEST_CASE_FIXTURE(Marlin, "Marlin: a broken heater kills") {
     say("M104 S200", Channel::main, 5);
     forget();
-    CHECK(board().machine().breakdowns.add(board().time(),
-                                           {machine::find_breakdown("heater_dead"), {}, {}, {}}) != 0);
+    CHECK(board().machine().faults.add(board().time(),
+                                       machine::default_request(*machine::find_fault("heater_dead"))) != 0);
     run_for(120);
     CHECK(has(
         said(),

@@ -107,7 +107,7 @@ class Run {
 /// Every command taken has its ok, but for those that wait and the one that runs; so has every line that was
 /// asked for again.
 void Run::count() {
-    const machine::HostCommands& host = board_.machine().host;
+    const machine::HostSide& host = board_.machine().host_side();
     for (std::size_t i = 0; i < lines; ++i) {
         const std::uint64_t open =
             board_.waiting(static_cast<Channel>(i)) + (host.running() && host.speaker == i ? 1 : 0);
@@ -154,7 +154,7 @@ void Run::step(std::string_view line) {
         feed(line[0] == 'm' ? Channel::main : Channel::host, unescape(rest));
     } else if (line[0] == 'n') {
         std::string framed =
-            "N" + std::to_string(board_.machine().host.lines[1].last + 1) + " " + unescape(rest);
+            "N" + std::to_string(board_.machine().host_side().lines[1].last + 1) + " " + unescape(rest);
         framed += "*" + std::to_string(protocol::xor_checksum(framed)) + "\n";
         feed(Channel::host, framed);
     } else if (line[0] == 'w') {
