@@ -40,6 +40,9 @@ link::Link& BoardUnit::make_wire() {
 }
 
 std::unique_ptr<link::Link> BoardUnit::make_link() {
+    if (!has_main_line()) {
+        return link::make_no_link();
+    }
     if (!options_.tcp.empty()) {
         return link::make_tcp_listen_link(loop_, options_.tcp);
     }
@@ -47,7 +50,7 @@ std::unique_ptr<link::Link> BoardUnit::make_link() {
         const std::string port = options_.port == "auto" ? link::pick_auto_port() : options_.port;
         return link::make_port_link(loop_, port, options_.baud != 0 ? options_.baud : profile_->line.baud);
     }
-    return link::make_pty_link(loop_, options_.pty_name);
+    return link::make_pty_link(loop_, options_.pty_name, {profile_->line.baud, true});
 }
 
 std::unique_ptr<link::Link> BoardUnit::make_host_link() {
@@ -58,7 +61,7 @@ std::unique_ptr<link::Link> BoardUnit::make_host_link() {
     if (!line.port.empty()) {
         return link::make_port_link(loop_, line.port, line.baud);
     }
-    return link::make_pty_link(loop_, line.pty_name);
+    return link::make_pty_link(loop_, line.pty_name, {0, false});
 }
 
 void BoardUnit::set_up() {
@@ -77,6 +80,7 @@ void BoardUnit::set_up() {
         options.front = &screen_.emplace(host::load_own_screen(profile_->screen));
     }
     board_.emplace(profile_, services, options);
+    board_->connect(board::Channel::main, has_main_line());
     link_.emplace(make_wire(), *clock_, fault::Direction::to_board);
     if (options_.host.wanted()) {
         host_wire_ = make_host_link();

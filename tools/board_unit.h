@@ -76,6 +76,10 @@ class BoardUnit {
     void set_up_disks(machine::Services& services);
     void add_faults();
     link::Link& make_wire();
+    /// A board that can do without its screen has no line for one when only its USB side was asked for.
+    bool has_main_line() const {
+        return options_.line_given || !options_.host.wanted() || !profile_->line.optional;
+    }
     std::unique_ptr<link::Link> make_link();
     std::unique_ptr<link::Link> make_host_link();
 

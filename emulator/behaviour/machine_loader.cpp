@@ -54,6 +54,9 @@ void load_card(const Json& node, const std::string& pointer, Findings& findings,
     reader.unsigned_integer("max_listed", out.max_listed, 1, 1000);
     reader.boolean("way_back", out.way_back);
     reader.boolean("ignore_case", out.ignore_case);
+    reader.boolean("short_names", out.short_names);
+    reader.boolean("long_names", out.long_names);
+    reader.number("found_s", out.found_s, 0, 60);
     if (const Json* entries = reader.get("entries")) {
         std::size_t count = 0;
         out.entries.clear();
@@ -62,9 +65,25 @@ void load_card(const Json& node, const std::string& pointer, Findings& findings,
     reader.finish();
 }
 
+void load_host(const Json& node, const std::string& pointer, Findings& findings, machine::HostConfig& out) {
+    ObjectReader reader(node, pointer, findings);
+    reader.number("busy_s", out.busy_s, 0, 3600);
+    reader.unsigned_integer("queue_lines", out.queue_lines, 1, 1024);
+    reader.unsigned_integer("line_chars", out.line_chars, 16, 511);
+    reader.boolean("drops_repeated", out.drops_repeated);
+    reader.boolean("judges_unnumbered", out.judges_unnumbered);
+    reader.boolean("first_star_ends", out.first_star_ends);
+    reader.boolean("numbers_uploads", out.numbers_uploads);
+    reader.boolean("emergency_parser", out.emergency_parser);
+    reader.finish();
+}
+
 void load_common(ObjectReader& reader, Findings& findings, machine::MachineConfig& machine) {
     if (const Json* part = reader.get("card")) {
         load_card(*part, reader.pointer("card"), findings, machine.card);
+    }
+    if (const Json* part = reader.get("host")) {
+        load_host(*part, reader.pointer("host"), findings, machine.host);
     }
     reader.boolean("udisk_port", machine.udisk_port);
 }

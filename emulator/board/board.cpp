@@ -1,4 +1,4 @@
-#include "emulator/board/board.h"
+#include "emulator/board/board_front.h"
 
 #include <algorithm>
 #include <numeric>
@@ -23,13 +23,11 @@ using machine::never;
 constexpr std::size_t outbox_bytes = 12 * 1024;
 constexpr std::size_t outbox_messages = 128;
 constexpr std::size_t inbox_bytes = 8 * 1024;
-/// Of the USB side: Marlin's queue of four lines of 96 bytes, and the ring of 128 bytes behind its port.
-constexpr std::size_t host_inbox_bytes = 4 * 96 + 128;
-constexpr std::size_t host_inbox_lines = 8;
+/// Of a line that speaks as a host. The firmware has room for a few, and its USB holds the rest back in the
+/// computer, so that nothing is lost; here it waits in the board.
+constexpr std::size_t command_bytes = 32 * 1024;
+constexpr std::size_t command_count = 1024;
 constexpr std::size_t first_output = 2 * line_bytes;
-constexpr std::size_t told_limit = 256;
-/// Events that one step may work off: a profile whose events raise each other must come to an end.
-constexpr int event_limit = 256;
 
 /// A code ("M2134"), not a word ("log"): words are no commands to the board and take no tick. The recorded
 /// one answered an M2134 that came 0.8 ms behind a log line as fast as one that came alone.
@@ -46,9 +44,17 @@ Board::Board(std::shared_ptr<const behaviour::Profile> profile, machine::Service
       wheel_(*profile_),
       inbox_(inbox_bytes, profile_->line.queue_lines),
       outbox_(outbox_bytes, outbox_messages),
-      host_inbox_(host_inbox_bytes, host_inbox_lines),
       scratch_(scratch_bytes) {
     port(Channel::main).connected = true;
+    if (profile_->line.framing == behaviour::Framing::commands) {
+        machine_->file_commands = this;
+    }
+    for (const Channel channel : {Channel::main, Channel::host}) {
+        if (takes_commands(channel)) {
+            port(channel).commands = CommandQueue(command_bytes, command_count);
+            port(channel).splitter.set_cutting(true);
+        }
+    }
     port(Channel::main).output = OutputBuffer(first_output);
     if (services.eeprom != nullptr) {
         machine_->eeprom_image = services.eeprom->load().value_or(std::string{});
@@ -70,30 +76,19 @@ void Board::notice(Level level, std::string_view text) {
     }
 }
 
-/// The built-in front, if there is one, acts on the machine.
-template <class Call>
-void Board::call_front(Call&& call) {
-    if (options_.front == nullptr) {
-        return;
-    }
-    ActionContext context{*machine_, variables_, *this};
-    call(*options_.front, context);
-    if (context.reset) {
-        power_on(time_);
-    }
-}
-
 void Board::power_on(SimTime now) {
     time_ = power_on_ = now;
     last_tick_ = now - profile_->tick;
     inbox_.clear();
     outbox_.clear();
     network_ = NetworkOutbox();
-    host_inbox_.clear();
     unfinished_due_ = never;
-    asker_ = Channel::main;
+    asker_.reset();
+    after_ = nullptr;
     for (Port& each : ports_) {
         each.splitter.reset();
+        each.commands.clear();
+        each.deaf_at = nowhen;
     }
     machine_->power_on(now);
     for (std::size_t i = 0; i < variables_.size(); ++i) {
@@ -103,11 +98,12 @@ void Board::power_on(SimTime now) {
     for (const behaviour::ActionCall& call : profile_->defaults) {
         behaviour::run_action(call, scope(), profile_->variables, context);
     }
-    machine_->factory_image = behaviour::make_image(*machine_);
+    const behaviour::Variables kept{variables_, profile_->variables};
+    machine_->factory_image = behaviour::make_image(*machine_, &kept);
     if (machine_->eeprom_image.empty()) {
         machine_->eeprom_image = machine_->factory_image;
     }
-    behaviour::load_fields(*machine_, {});
+    behaviour::load_fields(*machine_, {}, &kept);
     machine_->events.clear();  // what setting up raised is nobody's business
     wheel_.power_on(now);
     for (const Send& entry : profile_->boot) {
@@ -136,6 +132,7 @@ void Board::reload(std::shared_ptr<const behaviour::Profile> profile) {
     variables_ = std::move(variables);
     wheel_.reload(*profile_, time_);
     told_.clear();
+    after_ = nullptr;
 }
 
 void Board::receive(SimTime now, std::string_view bytes, Channel channel) {
@@ -174,9 +171,9 @@ void Board::hear(SimTime now, std::string_view line) {
 
 void Board::take_line(Channel channel, std::string_view line) {
     ++counters_.lines_received;
-    if (channel == Channel::host) {
+    if (takes_commands(channel)) {
         machine_->hear_host(time_);
-        take_host_line(line);
+        take_command_line(channel, line);
         return;
     }
     std::string_view body;
@@ -208,107 +205,12 @@ void Board::take_line(Channel channel, std::string_view line) {
 /// Takes a request out of the frame that the main line has. False when its checksum is wrong.
 bool Board::unframe(std::string_view line, std::string_view& body) const {
     if (profile_->line.framing != behaviour::Framing::frames) {
-        body = protocol::unframe_host_line(line).body;
+        body = protocol::unframe_host_line(protocol::without_remark(line)).body;
         return true;
     }
     const protocol::Unframed unframed = protocol::unframe(line, profile_->line.checksum);
     body = unframed.body;
     return unframed.fault == protocol::FrameFault::none;
-}
-
-void Board::execute(Channel channel, std::string_view body) {
-    protocol::Command command;
-    if (!protocol::parse_command(body, command)) {
-        return;  // a frame around nothing
-    }
-    const std::vector<Rule>* rules = profile_->rules_for(channel, command);
-    asker_ = channel == Channel::network ? channel : Channel::main;
-    if (rules == nullptr) {
-        if (channel == Channel::host && machine_->host_side().run_code()) {
-            return;
-        }
-        ++counters_.unknown_codes;
-        report_unknown(command.word, "is not in the profile");
-        if (channel == Channel::host) {
-            machine_->events.raise(machine::event("host.unknown"));
-        }
-    } else if (!run_rules(*rules, &command)) {
-        ++counters_.unmatched;
-        report_unknown(body, "has parameters that no rule of the profile is for");
-    }
-}
-
-void Board::report_unknown(std::string_view word, std::string_view why) {
-    if (options_.observer == nullptr || told_.size() >= told_limit || told_.contains(word)) {
-        return;
-    }
-    told_.emplace(word);
-    notice(Level::warning, std::string(word.substr(0, 60)) + " " + std::string(why) + "; ignored");
-}
-
-bool Board::run_rules(const std::vector<Rule>& rules, const protocol::Command* command) {
-    const Scope here = scope(command);
-    for (const Rule& rule : rules) {
-        if (behaviour::all_hold(rule.when, here)) {
-            run_rule(rule, here);
-            return true;
-        }
-    }
-    return false;
-}
-
-void Board::run_rule(const Rule& rule, const Scope& here) {
-    ActionContext context{*machine_, variables_, *this};
-    for (const behaviour::ActionCall& call : rule.actions) {
-        behaviour::run_action(call, here, profile_->variables, context);
-    }
-    if (context.reset) {
-        power_on(time_);
-        return;
-    }
-    for (const Send& entry : rule.send) {
-        send(entry, here);
-    }
-}
-
-/// After anything that may have changed the machine: events, and what the main loop lost by it.
-void Board::settle() {
-    asker_ = Channel::main;
-    if (!machine_->events.empty()) {
-        run_events();
-    }
-    if (machine_->take_reset()) {
-        power_on(time_);
-        return;
-    }
-    if (const int rounds = machine_->loop.take_lost_rounds(); rounds > 0) {
-        wheel_.lose_rounds(rounds);
-    }
-    if (const SimTime stall = machine_->loop.take_stall(); stall > SimTime{0}) {
-        wheel_.stall(stall);
-    }
-    if (wheel_.frozen() && !behaviour::all_hold(profile_->schedule.frozen_while, scope())) {
-        wheel_.thaw(time_);
-    }
-}
-
-void Board::run_events() {
-    for (int i = 0; i < event_limit; ++i) {
-        const auto event = machine_->events.take();
-        if (!event) {
-            return;
-        }
-        if (options_.observer != nullptr) {
-            options_.observer->on_event(time_, *event);
-        }
-        const std::vector<Rule>& rules = profile_->rules_for(*event);
-        if (!rules.empty()) {
-            run_rules(rules, nullptr);
-        }
-        call_front([&](Front& front, ActionContext& context) { front.on_event(time_, *event, context); });
-    }
-    machine_->events.clear();
-    notice(Level::error, "the profile's events raise each other without end; the rest was dropped");
 }
 
 SimTime Board::next_tick() const {
@@ -373,9 +275,7 @@ void Board::run_tick() {
 
 SimTime Board::advance(SimTime now) {
     while (quiet()) {
-        if (!host_inbox_.empty()) {
-            run_host();  // what its output had no room for may go on
-        }
+        run_host();  // what its output had no room for may go on
         const SimTime due = next_due();
         if (due > now) {
             time_ = std::max(time_, now);

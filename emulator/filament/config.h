@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "emulator/filament/heating_wait.h"
 #include "emulator/filament/thermal_config.h"
 #include "emulator/machine/events.h"
 #include "emulator/machine/machine_config.h"
@@ -37,6 +38,7 @@ struct ProcedureStep {
     double seconds = -1;               ///< fixed duration; < 0: from distance and feed
     int rounds = 0;                    ///< lose_rounds
     machine::EventId event = nullptr;  ///< raise
+    int mesh_point = -1;               ///< probe: what it measures is that point of the mesh, 0 to 8
     bool reference = false;  ///< probe: what it touches here is what heights count from, as when homing Z
 };
 using Procedure = std::vector<ProcedureStep>;
@@ -73,10 +75,11 @@ struct JobConfig {
     double finished_s = 10;
 };
 
-struct HostConfig {
-    /// A command of the USB side that takes longer than this raises `host.busy`, and again each time; 0:
-    /// never.
-    double busy_s = 2;
+/// What a board does against filament that is pulled through a cold nozzle (Marlin's
+/// PREVENT_COLD_EXTRUSION).
+struct ExtrusionConfig {
+    bool guarded = false;   ///< by the bound of FilamentConfig, until M302 says otherwise
+    double longest_mm = 0;  ///< of one move; 0: any
 };
 
 /// What a profile can say about a printer that melts filament.
@@ -85,7 +88,8 @@ struct Config : machine::MachineConfig {
     MotionConfig motion;
     FilamentConfig filament;
     JobConfig job;
-    HostConfig host;
+    HeatingWaitConfig heating;
+    ExtrusionConfig extrusion;
     int board_fan_percent = 50;
     double manual_level_start_mm = 8.0;
 };

@@ -6,6 +6,7 @@
 
 #include "emulator/filament/event_rows.h"
 #include "emulator/filament/heating_wait.h"
+#include "emulator/filament/host_commands.h"
 #include "emulator/filament/motion.h"
 #include "emulator/filament/names.h"
 
@@ -104,7 +105,8 @@ std::uint64_t JobRunner::executed_byte() const {
 
 /// Whether lines are being read and carried out at all.
 bool JobRunner::reading() const {
-    return on_.job.status() == JobStatus::printing && !on_.job.pausing() && !on_.wait.active();
+    return on_.job.status() == JobStatus::printing && !on_.job.pausing() && !on_.wait.active() &&
+           !on_.host.holds();
 }
 
 SimTime JobRunner::next_event(SimTime now) const {
@@ -189,6 +191,8 @@ bool JobRunner::fetch() {
             return false;
     }
     ++lines_;
+    source_.next = reader_.byte();
+    text_ = text;
     parse_gcode(text, line_);
     if (!line_.comment.empty()) {
         take_comment();
@@ -204,17 +208,24 @@ void JobRunner::take_comment() {
     on_.job.estimate_s = notes_.seconds();
 }
 
+bool JobRunner::run_code(bool by_rule) {
+    return filament::run_code(code_, by_rule, source_, line_);
+}
+
 void JobRunner::execute() {
-    const GcodeCode* code = line_.letter == 0 ? nullptr : find_code(line_.letter, line_.code);
-    held_ = code != nullptr && code->at_rest && on_.motion.busy();
+    code_ = line_.letter == 0 ? nullptr : find_code(line_.letter, line_.code);
+    held_ = code_ != nullptr && code_->needs == Needs::rest && on_.motion.busy();
     if (held_ || line_.letter == 0) {
         return;
     }
-    if (code == nullptr) {
-        ++unknown_codes_;
-        return;
+    on_.commands.begun = this;
+    machine::FileCommands* const rules = on_.commands.of_files;
+    const bool by_rule = rules != nullptr && rules->carry_out(text_, line_.letter, line_.code);
+    unknown_codes_ += by_rule || run_code(false) ? 0 : 1;
+    on_.commands.begun = nullptr;
+    if (code_ != nullptr && code_->needs == Needs::room) {
+        on_.host.go_on();
     }
-    code->run(source_, line_);
 }
 
 /// The file is gone. The job pauses, so that it can go on when the card is back.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <string_view>
 
 #include "emulator/filament/config.h"
 #include "emulator/filament/gcode_codes.h"
@@ -25,10 +26,10 @@ struct JobCounts {
 /// It runs in virtual time and does nothing between events: it goes on when a block of the planner ends, a
 /// procedure or a wait is over. A line costs no time, but in 10 ms no more than 4 KiB are read, and the line
 /// in which they end (400 KB/s, what such boards read from a card), so that no file can hold the board up.
-class JobRunner {
+class JobRunner : public machine::BegunCommand {
   public:
     JobRunner(GcodeMachine& on, const Storage& storage, const JobConfig& config)
-        : on_(on), storage_(storage), config_(config), source_{on} {}
+        : on_(on), storage_(storage), config_(config), source_{on, true} {}
 
     void power_on();
     /// The job starts, at its place().
@@ -48,6 +49,8 @@ class JobRunner {
     SimTime next_event(SimTime now) const;
     /// A finished job is still shown, for a while.
     bool shows_finished() const { return close_ != never; }
+
+    bool run_code(bool by_rule) override;
 
     JobCounts counts() const { return {lines_, source_.moves, unknown_codes_}; }
     /// The byte in the file at which the move under way begins: what a power cut loses begins here.
@@ -69,6 +72,8 @@ class JobRunner {
     const JobConfig& config_;
     GcodeReader reader_;
     GcodeLine line_;
+    std::string_view text_;            ///< what line_ was parsed from
+    const GcodeCode* code_ = nullptr;  ///< of line_
     SlicerNotes notes_;
     GcodeReader scout_;  ///< runs ahead to count layers, where no comment tells their number
     SlicerNotes scout_notes_;

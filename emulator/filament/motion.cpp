@@ -55,6 +55,8 @@ void Motion::power_on() {
     lost_rounds_ = 0;
     homed_ = 0;
     relative_ = relative_e_ = motors_ = false;
+    mesh = {};
+    probed_ = {};
 }
 
 void Motion::set_motors(bool on) {
@@ -285,9 +287,12 @@ void Motion::finish(EventQueue& events) {
     extruded_ += step.target[3] - executed_[3];
     executed_ = step.target;
     switch (step.what.kind) {
+        case Kind::probe:
+            note_probed(step);
+            accepted_ = step.target;
+            break;
         case Kind::zero:
         case Kind::home:
-        case Kind::probe:
             accepted_ = step.target;
             break;
         case Kind::homed:
@@ -304,6 +309,15 @@ void Motion::finish(EventQueue& events) {
             break;
     }
     accept_ahead();
+}
+
+void Motion::note_probed(const Step& step) {
+    const double height = step.target[z_axis] - config_.probe_trigger_mm;
+    probed_ = {step.target[0] + config_.probe_offset_mm[0], step.target[1] + config_.probe_offset_mm[1],
+               height};
+    if (step.what.mesh_point >= 0) {
+        mesh.mm[static_cast<std::size_t>(step.what.mesh_point)] = height;
+    }
 }
 
 bool Motion::fails(const Step& step, EventQueue& events) {
@@ -372,9 +386,9 @@ double Motion::bed_height_mm(double x, double y) const {
     const auto row = static_cast<std::size_t>(std::min(v, 1.0));
     const double fu = u - static_cast<double>(column);
     const double fv = v - static_cast<double>(row);
-    const auto& mesh = config_.bed_mesh_mm;
-    const double front = mesh[row][column] * (1 - fu) + mesh[row][column + 1] * fu;
-    const double back = mesh[row + 1][column] * (1 - fu) + mesh[row + 1][column + 1] * fu;
+    const auto& bed = config_.bed_mesh_mm;
+    const double front = bed[row][column] * (1 - fu) + bed[row][column + 1] * fu;
+    const double back = bed[row + 1][column] * (1 - fu) + bed[row + 1][column + 1] * fu;
     return front * (1 - fv) + back * fv;
 }
 

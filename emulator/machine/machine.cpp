@@ -26,7 +26,8 @@ Machine::Machine(const Kind& kind, std::shared_ptr<const MachineConfig> config, 
     if (services_.sd == nullptr && config_->card.present) {
         built_in_.emplace(config_->card.entries);
     }
-    storage.configure(config_->card.way_back, config_->card.ignore_case);
+    const CardConfig& card = config_->card;
+    storage.configure({card.way_back, card.ignore_case, card.short_names, card.long_names});
     put_in(0);
     if (config_->udisk_port) {
         put_in(1);
@@ -42,11 +43,16 @@ void Machine::power_on(SimTime now) {
     host_side_.power_on();
     wifi = Wifi{};
     loop = MainLoop{};
-    refusing = hung_ = reset_ = false;
+    refusing = hung_ = reset_ = dying_ = false;
+    commands.begun = nullptr;
+    user_until_ = never;
     host_heard_.reset();
     power_on_parts(now);
     events.clear();
-    card_check_ = storage.usable(0) ? never : now + card_check_delay;
+    const double found_s = config_->card.found_s;
+    card_check_ = found_s > 0          ? now + from_seconds(found_s)
+                  : !storage.usable(0) ? now + card_check_delay
+                                       : never;
 }
 
 void Machine::advance(SimTime now) {
@@ -60,7 +66,10 @@ void Machine::advance(SimTime now) {
         }
         if (card_check_ <= next) {
             card_check_ = never;
-            events.raise(event("card.missing"));
+            events.raise(storage.usable(0) ? event("card.found") : event("card.missing"));
+        }
+        if (user_until_ <= next) {
+            user_continues();
         }
         run_parts(next);
     }
@@ -71,7 +80,7 @@ void Machine::advance(SimTime now) {
 
 SimTime Machine::next_event() const {
     const SimTime fault = faults.next_event();
-    return hung_ ? fault : std::min({next_of_parts(), card_check_, fault});
+    return hung_ ? fault : std::min({next_of_parts(), card_check_, user_until_, fault});
 }
 
 bool Machine::restless() const {
@@ -127,6 +136,24 @@ const std::vector<CardEntry>& Machine::listing() {
         listed_folder_ = storage.folder();
     }
     return listing_;
+}
+
+const std::vector<CardEntry>& Machine::files() {
+    constexpr std::size_t most_files = 4096;
+    storage.files(files_, most_files);
+    return files_;
+}
+
+void Machine::kill() {
+    emergency_stop();
+    dying_ = true;
+    events.raise(event("board.killed"));
+}
+
+void Machine::die_if_told() {
+    if (std::exchange(dying_, false)) {
+        hang(false);
+    }
 }
 
 void Machine::hang(bool powered) {

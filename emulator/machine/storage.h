@@ -16,6 +16,9 @@ struct CardEntry {
     std::string name;
     bool folder = false;
     std::uint64_t bytes = 0;
+    /// When it was written, as FAT packs date and time; of a disk that does not know, some day.
+    std::uint32_t stamp = 0x5A21'0000;
+    std::string long_name = {};  ///< of files(): the same as its name where the disk knows no other
 };
 
 /// A disk as the board sees it. Paths are relative to its root, parts parted by '/', never starting with one,
@@ -73,10 +76,13 @@ class Storage {
     static constexpr std::size_t disk_count = 2;  // 0 SD card, 1 U-disk
 
     /// How the board lists and finds; as CardConfig says.
-    void configure(bool way_back, bool ignore_case) {
-        way_back_ = way_back;
-        ignore_case_ = ignore_case;
-    }
+    struct Naming {
+        bool way_back = true;
+        bool ignore_case = false;
+        bool short_names = false;  ///< of eight and three characters, as a FAT disk has them
+        bool long_names = true;    ///< where there are short ones: the long ones are taken as well
+    };
+    void configure(const Naming& naming) { naming_ = naming; }
 
     void attach(int disk, Volume* volume);  ///< nullptr takes it out
     void set_state(int disk, DiskState state) { states_[index(disk)] = state; }
@@ -101,6 +107,9 @@ class Storage {
     /// What the screen shows of the folder: the way back first unless at the root, at most `limit` entries in
     /// all.
     void listing(std::vector<CardEntry>& out, unsigned limit) const;
+    /// Every file of the chosen disk, of all folders, its name with the way to it ("SUB/B.GCO"); at most
+    /// `limit`.
+    void files(std::vector<CardEntry>& out, std::size_t limit) const;
 
     /// The disk in the slot, if it is usable and its files can be read.
     const Volume* volume(int disk) const {
@@ -136,18 +145,26 @@ class Storage {
         std::uint64_t bytes = 0;
     };
     /// The file that `name` means, relative to the folder shown. A checksum that a screen kept in the name
-    /// ("x.gco*74") is taken off when there is no file that is really called so.
+    /// ("x.gco*74"), or a size that a host did ("x.gco 1234", as M20 lists it), is taken off when there is no
+    /// file that is really called so.
     Found find(std::string_view name) const;
+    std::string asked;      ///< the last part of the name that was last asked for, as it was spelled
+    std::string looked_up;  ///< what long_path() was last asked for gave
+    /// The long path of a file or folder that is named by its short ones (M33); empty: there is none.
+    std::string long_path(std::string_view name) const;
 
   private:
     static std::size_t index(int disk) { return disk == 1 ? 1 : 0; }
+    /// Adds the files of a folder, listed under the name `shown`, and of those in it: a path has at most 255
+    /// bytes, so that they are no deeper than 128.
+    void add_files(const std::string& folder, const std::string& shown, std::size_t limit,
+                   std::size_t& folders_left, std::vector<CardEntry>& out) const;
     std::array<Volume*, disk_count> volumes_{};
     std::array<DiskState, disk_count> states_{DiskState::removed, DiskState::removed};
     Volume::Kind file_trouble_ = Volume::Kind::file;
     int chosen_ = 0;
     std::string folder_;
-    bool way_back_ = true;
-    bool ignore_case_ = false;
+    Naming naming_;
 };
 
 /// What stands behind the name of a file that is being written.

@@ -120,7 +120,8 @@ std::string run_host(Acting& acting, const Step& step) {
         std::string line = step.bytes;
         if (step.numbered) {
             board.refresh(now);
-            line = fmt::format("N{} {}", board.machine().host_side().last_line + 1, line);
+            const auto& usb = board.machine().host_side().lines[machine::HostSide::usb_port];
+            line = fmt::format("N{} {}", usb.last + 1, line);
             line += fmt::format("*{}", protocol::xor_checksum(line));
         }
         board.connect(board::Channel::host, true);

@@ -39,6 +39,7 @@ std::vector<Benchmark> pty_benchmarks();
 std::vector<Benchmark> tap_benchmarks();
 std::vector<Benchmark> resin_benchmarks();
 std::vector<Benchmark> panel_benchmarks();
+std::vector<Benchmark> marlin_benchmarks();
 
 double median(std::vector<double> values);
 

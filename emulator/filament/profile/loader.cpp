@@ -225,6 +225,7 @@ ProcedureStep load_step(const Json& node, const std::string& pointer, Findings& 
             break;
         case Kind::probe:
             reader.choice("probe", probes, probe);
+            reader.integer("point", step.mesh_point, 0, 8);
             break;
         case Kind::wait:
             reader.number("wait_s", step.seconds, 0, 3600);
@@ -314,10 +315,18 @@ void load_config(ObjectReader& reader, Findings& findings, Config& config) {
         job.number("finished_s", config.job.finished_s, 0, 86400);
         job.finish();
     }
-    if (const Json* node = reader.get("host")) {
-        ObjectReader host(*node, reader.pointer("host"), findings);
-        host.number("busy_s", config.host.busy_s, 0, 3600);
-        host.finish();
+    if (const Json* node = reader.get("heating")) {
+        ObjectReader heating(*node, reader.pointer("heating"), findings);
+        heating.number("report_s", config.heating.report_s, 0, 3600);
+        heating.number("residency_s", config.heating.residency_s, 0, 3600);
+        heating.number("hysteresis_c", config.heating.hysteresis_c, 0, 100);
+        heating.finish();
+    }
+    if (const Json* node = reader.get("extrusion")) {
+        ObjectReader extrusion(*node, reader.pointer("extrusion"), findings);
+        extrusion.boolean("guarded", config.extrusion.guarded);
+        extrusion.number("longest_mm", config.extrusion.longest_mm, 0, huge);
+        extrusion.finish();
     }
     reader.integer("board_fan_percent", config.board_fan_percent, 0, 100);
     reader.number("manual_level_start_mm", config.manual_level_start_mm, 0, 500);
