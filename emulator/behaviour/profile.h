@@ -41,6 +41,7 @@ struct LineConfig {
     protocol::ChecksumPolicy checksum = protocol::ChecksumPolicy::required;
     unsigned queue_lines = 64;  ///< requests waiting for their tick; more are lost, as in the board's buffer
     std::string peer = "screen";  ///< what logs call the other end
+    bool none = false;            ///< the board has no line at all
     SimTime unfinished{0};  ///< a line without an end is taken for whole after so long a silence; 0: never
 };
 

@@ -16,6 +16,7 @@ struct CardEntry {
     std::string name;
     bool folder = false;
     std::uint64_t bytes = 0;
+    std::int64_t modified_s = 0;  ///< since 1970, local time; 0: not known
 };
 
 /// A disk as the board sees it. Paths are relative to its root, parts parted by '/', never starting with one,
