@@ -143,6 +143,10 @@ void declare_run_options(CLI::App& command, RunOptions& options) {
                     "File that keeps the board's settings, and beside it FILE.job the place of a print "
                     "(default: none)")
         ->type_name("FILE");
+    command
+        .add_option("--panel", options.panel,
+                    "Folder for what the UV panel of a board that has one shows: a PNG each, and panel.jsonl")
+        ->type_name("DIR");
     declare_script(command, options);
     declare_time(command, options);
     declare_talk(command, options);

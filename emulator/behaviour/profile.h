@@ -43,6 +43,7 @@ struct LineConfig {
     unsigned queue_lines = 64;  ///< requests waiting for their tick; more are lost, as in the board's buffer
     std::string peer = "screen";  ///< what logs call the other end
     bool optional = false;        ///< nothing need be there: the board may run with its USB side alone
+    bool none = false;            ///< the board has no line at all
     SimTime unfinished{0};  ///< a line without an end is taken for whole after so long a silence; 0: never
 };
 

@@ -81,6 +81,7 @@ void Loader::load_line(const Json& node, const std::string& pointer) {
     profile_->line.checksum = static_cast<protocol::ChecksumPolicy>(policy);
     reader.text("peer", profile_->line.peer, 16);
     reader.boolean("optional", profile_->line.optional);
+    reader.boolean("none", profile_->line.none);
     double unfinished_ms = 0;
     reader.number("unfinished_ms", unfinished_ms, 0, 60'000);
     profile_->line.unfinished = machine::from_seconds(unfinished_ms / 1000);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <ctime>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -59,6 +60,17 @@ machine::Volume::Kind look_at(int folder, const std::string& name, std::uint64_t
 
 bool is_file(machine::Volume::Kind kind) {
     return kind == machine::Volume::Kind::file || kind == machine::Volume::Kind::unreadable;
+}
+
+/// When it was written last, seconds since 1970 in local time; 0 when that is not known.
+std::int64_t modified_s(int folder, const std::string& name) {
+    struct stat info {};
+    std::tm local{};
+    if (::fstatat(folder, name.c_str(), &info, AT_SYMLINK_NOFOLLOW) != 0 ||
+        ::localtime_r(&info.st_mtime, &local) == nullptr) {
+        return 0;
+    }
+    return info.st_mtime + local.tm_gmtoff;
 }
 
 std::vector<std::string> read_names(DIR* folder) {
@@ -125,7 +137,9 @@ bool FolderCard::list(std::string_view folder, std::vector<CardEntry>& out) cons
         const Kind kind = count < max_entries ? look_at(fd.get(), name, bytes) : Kind::missing;
         if (kind != Kind::missing) {
             ++count;
-            (kind == Kind::folder ? folders : out).push_back({std::move(name), kind == Kind::folder, bytes});
+            const std::int64_t modified = modified_s(fd.get(), name);
+            (kind == Kind::folder ? folders : out)
+                .push_back({std::move(name), kind == Kind::folder, bytes, modified});
         }
     }
     std::move(folders.begin(), folders.end(), std::back_inserter(out));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,7 @@ struct MachineConfig {
     CardConfig card;
     HostConfig host;
     bool udisk_port = false;
+    std::size_t eeprom_bytes = 0;  ///< of a chip that is known byte by byte; 0: it keeps values
 };
 
 }  // namespace fauxboard::machine

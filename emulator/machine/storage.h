@@ -19,6 +19,7 @@ struct CardEntry {
     /// When it was written, as FAT packs date and time; of a disk that does not know, some day.
     std::uint32_t stamp = 0x5A21'0000;
     std::string long_name = {};  ///< of files(): the same as its name where the disk knows no other
+    std::int64_t modified_s = 0;  ///< since 1970, local time; 0: not known
 };
 
 /// A disk as the board sees it. Paths are relative to its root, parts parted by '/', never starting with one,
