@@ -7,16 +7,11 @@ say() { printf '\n== %s\n' "$*"; }
 
 # What the program is built with, and what its tests want besides.
 build_packages=(g++ cmake ninja-build pkg-config libserialport-dev nlohmann-json3-dev libspdlog-dev libfmt-dev
-<<<<<<< HEAD
                 libcli11-dev libncurses-dev libre2-dev libpng-dev libmicrohttpd-dev libjs-dygraphs
-                libfreetype-dev fonts-dejavu-core)
-test_packages=(doctest-dev libbenchmark-dev clang libclang-rt-dev)
+                libfreetype-dev fonts-dejavu-core libmd-dev)
+test_packages=(doctest-dev libbenchmark-dev clang libclang-rt-dev printrun-common python3-serial)
 # Of these only the files are taken: what they depend on is for uses that nobody has here.
 header_packages=(libvalijson-dev)
-=======
-                libcli11-dev libvalijson-dev libncurses-dev libre2-dev libpng-dev libmd-dev doctest-dev libbenchmark-dev)
-test_packages=(clang libclang-rt-dev)
->>>>>>> c23a44b (Make the MKS DLP board a kind of machine)
 
 # install PACKAGE...: those of them that are missing.
 install() {
