@@ -31,9 +31,8 @@ Json json_of(const CheckedFile& checked) {
 }
 
 std::string text_of(const CheckedFile& checked) {
-    if (!checked.readable) {
-        return fmt::format("{}: no such file, or it cannot be read, or it is larger than 4 MiB\n",
-                           checked.file);
+    if (!checked.readable && checked.problems.empty()) {
+        return fmt::format("{}: there is no such file\n", checked.file);
     }
     std::string text;
     for (const behaviour::Problem& problem : checked.problems) {

@@ -30,5 +30,6 @@ void add_describe(CLI::App& app, ExitCode& exit);
 void add_sliced(CLI::App& app, ExitCode& exit);
 void add_ports(CLI::App& app, ExitCode& exit);
 void add_profiles(CLI::App& app, ExitCode& exit);
+void add_soak(CLI::App& app, ExitCode& exit);
 
 }  // namespace fauxboard::tools

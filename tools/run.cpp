@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cstdio>
+#include <cerrno>
+#include <chrono>
+#include <exception>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <system_error>
+#include <vector>
 
 #include "emulator/fault/printer_fault.h"
 #include "emulator/host/clock.h"
@@ -42,6 +46,7 @@ using machine::SimTime;
 
 /// What a person can still follow, per second. A real line has some twenty at most.
 constexpr double log_lines_per_second = 100;
+constexpr std::chrono::milliseconds ready_retry{50};
 
 /// Everything that one run needs, in the order in which it must come and (backwards) go.
 class Run {
@@ -56,7 +61,7 @@ class Run {
           json_(out_),
           profile_(scenario_ ? scenario_->cast.profile : host::load_profile_by_name(options.profile)),
           clock_(host::make_clock(loop_, options.speed)),
-          signals_(loop_, {SIGINT, SIGTERM, SIGHUP}, [this](int number) { on_signal(number); }),
+          signals_(loop_, link::ending_signals, [this](int number) { on_signal(number); }),
           watch_(loop_, [this] { reload(); }) {}
 
     ExitCode operator()();
@@ -75,6 +80,8 @@ class Run {
     void open_control();
     void open_network();
     void say_ready();
+    void see_ready_off();
+    void warn_of_network();
     void say(board::Level level, std::string_view text);
     void reload();
     void say_summary();
@@ -106,6 +113,7 @@ class Run {
     std::optional<host::NetworkLine> network_;
     std::optional<host::ControlServer> control_;
     std::optional<host::ScriptHost> script_;
+    link::Timer ready_retry_{loop_, [this] { see_ready_off(); }};
     link::Signals signals_;
     host::ProfileWatch watch_;
 };
@@ -147,16 +155,17 @@ std::unique_ptr<link::Link> Run::make_host_link() {
 void Run::set_up() {
     log_.call_peer(profile_->line.peer);
     observers_.add(log_);
-    const auto warn = [this](std::string_view text) { say(board::Level::warning, text); };
+    const auto trouble = [this](std::string_view text) { say(board::Level::error, text); };
     if (!options_.record.empty()) {
-        recorder_.emplace(options_.record, [warn](SimTime, std::string_view text) { warn(text); });
+        recorder_.emplace(options_.record, [trouble](SimTime, std::string_view text) { trouble(text); });
         observers_.add(*recorder_);
     }
     machine::Services services;
     set_up_disks(services);
     if (!options_.eeprom.empty()) {
-        services.eeprom = &eeprom_.emplace(options_.eeprom, warn);
-        services.job_place = &job_place_.emplace(eeprom_->file() + ".job", warn);
+        // The place first: it is what tells that another board has both.
+        services.job_place = &job_place_.emplace(host::JobPlaceFile::beside(options_.eeprom), trouble);
+        services.eeprom = &eeprom_.emplace(options_.eeprom, trouble);
     }
     board::Options options;
     options.pacing = options_.pacing;
@@ -257,7 +266,8 @@ void Run::say_ready() {
     if (udp_) {
         ready["udp"] = udp_->path();
     }
-    out_.write("ready " + ready.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) + "\n");
+    out_.keep("ready " + ready.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) + "\n");
+    see_ready_off();
     if (options_.json) {
         observers_.add(json_);  // not before: the ready line is the first
     }
@@ -266,6 +276,32 @@ void Run::say_ready() {
                     "{} on {}{}. Ctrl-C ends it.\n",
                     profile_->title.empty() ? profile_->name : profile_->title, link_->describe(),
                     host_link_ ? ", its USB port on " + host_link_->describe() : std::string()));
+}
+
+/// Until the line that scripts wait for has been taken. Where it never can be, nobody should wait.
+void Run::see_ready_off() {
+    if (!out_.flush()) {
+        return ready_retry_.after(ready_retry);
+    }
+    const int error = out_.error();
+    if (error != 0 && error != EPIPE && error != EBADF) {  // a closed stdout wants to hear nothing
+        throw link::HostError(fmt::format("The line \"ready\" cannot be written to stdout ({}).",
+                                          std::system_category().message(error)));
+    }
+}
+
+/// Who binds beyond this computer may not know that anybody can then drive the board.
+void Run::warn_of_network() {
+    std::vector<std::string> open{link_->kind() == "tcp" ? link_->path() : ""};
+    open.push_back(host_link_ && host_link_->kind() == "tcp" ? host_link_->path() : "");
+    open.push_back(udp_ ? udp_->path() : "");
+    for (const std::string& path : open) {
+        if (!path.empty() && link::reaches_network(path)) {
+            say(board::Level::warning,
+                fmt::format("{} can be reached from other computers; whoever reaches it can drive this board",
+                            path));
+        }
+    }
 }
 
 void Run::reload() {
@@ -283,6 +319,10 @@ void Run::reload() {
         for (const behaviour::Problem& problem : error.problems()) {
             say(board::Level::error, problem.sentence());
         }
+    } catch (const std::exception& error) {  // of the system: out of memory, say
+        say(board::Level::error,
+            fmt::format("the changed profile cannot be loaded ({}), the one before stays in force",
+                        error.what()));
     }
 }
 
@@ -307,7 +347,7 @@ void Run::say_summary() {
 
 void Run::on_signal(int number) {
     if (script_) {
-        script_->interrupt(number == SIGINT ? "by SIGINT" : number == SIGTERM ? "by SIGTERM" : "by SIGHUP");
+        script_->interrupt("by " + link::signal_name(number));
     }
     loop_.stop();
 }
@@ -323,6 +363,7 @@ ExitCode Run::operator()() {
         host_link_->open(live_->attach(board::Channel::host, *host_link_));
     }
     say_ready();
+    warn_of_network();
     if (options_.reload && !scenario_) {  // which was checked against this one
         watch_.watch(profile_->files);
         if (!watch_.works()) {

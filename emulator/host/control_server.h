@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <memory>
 #include <string>
@@ -67,11 +68,18 @@ class ControlServer final : public LiveObserver, private control::Target {
     void take(link::UniqueFd socket);
     void turn_away(const link::UniqueFd& socket) const;
     void leave(const Client& client);
+    template <class Task>
+    void post(Task task);
+    void queue(const std::shared_ptr<Client>& client);
+    void serve_next();
     void skip_on();
 
     Parts parts_;
     control::Hub hub_;
     std::vector<std::shared_ptr<Client>> clients_;
+    /// Who has said something that was not looked at yet. One request is carried out on a turn of the loop,
+    /// each client's in turn: a client that floods us slows down itself, neither the others nor the line.
+    std::deque<std::weak_ptr<Client>> queue_;
     link::LocalListener listener_;
     SimTime skip_to_{0};  ///< virtual time is to jump that far
     /// What is posted to the event loop finds this gone when this object is.
