@@ -153,7 +153,7 @@ namespace {
 struct EndlessLine final : Volume {
     static constexpr std::uint64_t bytes = 50'000'000'000;
     mutable std::uint64_t read_bytes = 0;
-    bool list(std::string_view, std::vector<CardEntry>&) const override { return true; }
+    bool list(std::string_view, std::vector<fauxboard::machine::CardEntry>&) const override { return true; }
     Kind look(std::string_view, std::uint64_t& size) const override {
         size = bytes;
         return Kind::file;

@@ -70,7 +70,7 @@ TEST_CASE("a broken promise shrinks to what breaks it, and its report plays agai
 TEST_CASE("each promise and each kind of step has its words") {
     for (const Invariant& each : invariants()) {
         CHECK(each.promise.ends_with('.'));
-        CHECK(each.broken != nullptr);
+        CHECK((each.broken != nullptr));
     }
     for (const StepKind& each : step_kinds()) {
         CHECK(each.weight > 0);
