@@ -68,9 +68,10 @@ void BoardUnit::set_up() {
     machine::Services services;
     set_up_disks(services);
     if (!options_.eeprom.empty()) {
-        const auto warn = [this](std::string_view text) { say(board::Level::warning, text); };
-        services.eeprom = &eeprom_.emplace(options_.eeprom, warn);
-        services.job_place = &job_place_.emplace(eeprom_->file() + ".job", warn);
+        const auto trouble = [this](std::string_view text) { say(board::Level::error, text); };
+        // The place first: it is what tells that another board has both.
+        services.job_place = &job_place_.emplace(host::JobPlaceFile::beside(options_.eeprom), trouble);
+        services.eeprom = &eeprom_.emplace(options_.eeprom, trouble);
     }
     board::Options options;
     options.pacing = options_.pacing;
@@ -174,6 +175,20 @@ nlohmann::ordered_json BoardUnit::ready() const {
         ready["udp"] = udp_->path();
     }
     return ready;
+}
+
+std::vector<std::string> BoardUnit::network_paths() const {
+    std::vector<std::string> paths;
+    if (link_->kind() == "tcp") {
+        paths.push_back(link_->path());
+    }
+    if (host_link_ && host_link_->kind() == "tcp") {
+        paths.push_back(host_link_->path());
+    }
+    if (udp_) {
+        paths.push_back(udp_->path());
+    }
+    return paths;
 }
 
 std::string BoardUnit::where() const {

@@ -69,6 +69,8 @@ class BoardUnit {
     control::Display* display() { return display_.get(); }
     /// Null before open_target().
     host::LiveTarget* target() { return target_ ? &*target_ : nullptr; }
+    /// Of its lines, those that are sockets: where they listen.
+    std::vector<std::string> network_paths() const;
     /// " on ..., its USB port on ...", for people.
     std::string where() const;
 

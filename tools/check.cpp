@@ -34,9 +34,9 @@ Json json_of(const CheckedFile& checked) {
 }
 
 std::string text_of(const CheckedFile& checked) {
-    if (!checked.readable) {
+    if (!checked.readable && checked.problems.empty()) {
         const bool path = checked.file.find('/') != std::string::npos || checked.file.ends_with(".json");
-        return path ? checked.file + ": no such file, or it cannot be read, or it is larger than 4 MiB\n"
+        return path ? checked.file + ": there is no such file\n"
                     : fmt::format("{}: there is no file, profile, screen or scenario of this name{}\n",
                                   checked.file,
                                   checked.nearest.empty() ? "" : "; did you mean " + checked.nearest + "?");

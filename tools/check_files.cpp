@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <iterator>
 
 #include "emulator/behaviour/nearest.h"
@@ -18,8 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 using behaviour::Problem;
 using behaviour::SourceText;
-
-constexpr std::uintmax_t max_bytes = 4U * 1024 * 1024;
 
 /// A kind of file: what its "$schema" names, keys that no other kind has, and who knows its meaning.
 struct Kind {
@@ -39,27 +36,14 @@ constexpr Kind kinds[] = {
      [](const SourceText& source) { host::check_script(source); }},
 };
 
-std::optional<SourceText> read(const fs::path& file) {
-    std::error_code error;
-    if (!fs::is_regular_file(file, error) || fs::file_size(file, error) > max_bytes) {
-        return std::nullopt;
-    }
-    std::ifstream in(file, std::ios::binary);
-    if (!in) {
-        return std::nullopt;
-    }
-    return SourceText{file.string(),
-                      std::string(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>())};
-}
-
 /// The file itself; else a profile, a screen or a scenario of that name.
 std::optional<SourceText> find(const std::string& file) {
-    auto source = read(file);
+    auto source = host::read_source(file);
     if (!source && file.find('/') == std::string::npos) {
         source = host::profile_finder()(file, {});
         for (const fs::path& folder : host::profile_folders()) {
             for (const char* kind : {"screens", "scenarios"}) {
-                if (!source) source = read(folder / kind / (file + ".json"));
+                if (!source) source = host::read_source(folder / kind / (file + ".json"));
             }
         }
     }
@@ -68,7 +52,7 @@ std::optional<SourceText> find(const std::string& file) {
 
 std::optional<nlohmann::json> load_schema(std::string_view schema_file) {
     for (const fs::path& folder : host::profile_folders()) {
-        if (const auto source = read(folder / "schemas" / schema_file)) {
+        if (const auto source = host::read_source(folder / "schemas" / schema_file)) {
             auto schema = nlohmann::json::parse(source->text, nullptr, false);
             if (schema.is_object()) {
                 return schema;
@@ -158,7 +142,12 @@ std::string nearest_name(const std::string& file) {
 CheckedFile check_file(const std::string& file) {
     CheckedFile out;
     out.file = file;
-    const auto source = find(file);
+    std::optional<SourceText> source;
+    try {
+        source = find(file);
+    } catch (const behaviour::ProfileError& error) {
+        out.problems = error.problems();  // there, and it cannot be read
+    }
     if (!source) {
         out.readable = false;
         out.nearest = nearest_name(file);

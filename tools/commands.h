@@ -35,5 +35,6 @@ void add_profiles(CLI::App& app, ExitCode& exit);
 void add_manual(CLI::App& app, ExitCode& exit);
 /// `new`: a small profile, screen or scenario to start from.
 void add_new(CLI::App& app, ExitCode& exit);
+void add_soak(CLI::App& app, ExitCode& exit);
 
 }  // namespace fauxboard::tools

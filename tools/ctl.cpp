@@ -305,7 +305,7 @@ void add_doing(CLI::App& to, Ctl& ctl) {
         [&ctl] {
             ctl.request = Json{{"op", "advance"}, {"by", joined(ctl.words)}};
         })
-        ->add_option("TIME", ctl.words, "500ms, 10s, 5min, 24h")
+        ->add_option("TIME", ctl.words, "500ms, 10s, 5min, 24h, 30d")
         ->required()
         ->expected(1);
 }

@@ -7,10 +7,11 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
-#include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <memory>
+#include <new>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -91,6 +92,7 @@ int run_app(int argc, char** argv) {
     add_profiles(app, exit);
     add_new(app, exit);
     add_manual(app, exit);
+    add_soak(app, exit);
     app.footer(examples);  // last, since the subcommands made before inherit none of it
     warn_of_profile_folders();
     const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
@@ -103,24 +105,42 @@ int run_app(int argc, char** argv) {
     } catch (const CLI::Success& success) {  // --help, --version
         return app.exit(success) == 0 ? static_cast<int>(ExitCode::ok) : static_cast<int>(ExitCode::internal);
     } catch (const CLI::ParseError& error) {
-        app.exit(error);
+        std::ostringstream out;
+        app.exit(error, out, out);  // may hold what was given: it goes the way of all text
+        print_error(out.str());
         return static_cast<int>(ExitCode::usage);
     }
     return static_cast<int>(exit);
+}
+
+/// What a descriptor or a disk that breaks can do to a program is an error that its caller handles, not its
+/// end.
+void ignore_deadly_signals() {
+    std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);  // a file as large as RLIMIT_FSIZE allows is then like a full disk
+}
+
+/// The last word on an error that nobody handled. Out of memory is one of the system's.
+ExitCode last_word(const std::exception& error) {
+    if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) {
+        return complain("", ExitCode::bad_input, "There is not enough memory for this.");
+    }
+    return complain("", ExitCode::internal, std::string("a bug, please report it: ") + error.what());
 }
 
 }  // namespace
 }  // namespace fauxboard::tools
 
 int main(int argc, char** argv) {
-    std::signal(SIGPIPE, SIG_IGN);
     try {
+        fauxboard::tools::ignore_deadly_signals();
         fauxboard::tools::fill_standard_descriptors();
         return fauxboard::tools::run_app(argc, argv);
     } catch (const std::exception& error) {
-        std::fprintf(stderr, "fauxboard: a bug, please report it: %s\n", error.what());
+        return static_cast<int>(fauxboard::tools::last_word(error));
     } catch (...) {
-        std::fputs("fauxboard: a bug, please report it: an exception of unknown kind\n", stderr);
+        fauxboard::tools::complain("", fauxboard::tools::ExitCode::internal,
+                                   "a bug, please report it: an exception of unknown kind");
     }
     return static_cast<int>(fauxboard::tools::ExitCode::internal);
 }

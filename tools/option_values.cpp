@@ -14,11 +14,12 @@ void add_duration(CLI::App& command, machine::SimTime& duration, const std::stri
                 const auto time = host::parse_duration(text);
                 if (!time) {
                     throw CLI::ValidationError(
-                        "--duration", "'" + text + "' is no time; expected 500ms, 10s, 5min, 24h or seconds");
+                        "--duration",
+                        "'" + text + "' is no time; expected 500ms, 10s, 5min, 24h, 30d or seconds");
                 }
                 duration = *time;
             },
-            help + ": 500ms, 10s, 5min, 24h")
+            help + ": 500ms, 10s, 5min, 24h, 30d")
         ->type_name("T");
 }
 

@@ -19,6 +19,10 @@ ExitCode complain(std::string_view command, ExitCode code, std::string_view sent
     return code;
 }
 
+void print_error(std::string_view text) {
+    write(STDERR_FILENO, text);
+}
+
 void print(std::string_view text) {
     write(STDOUT_FILENO, text);
 }

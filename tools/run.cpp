@@ -3,9 +3,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <chrono>
+#include <exception>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <system_error>
+#include <vector>
 
 #include "emulator/fault/printer_fault.h"
 #include "emulator/host/json_log.h"
@@ -28,6 +33,7 @@ namespace {
 
 /// What a person can still follow, per second. A real line has some twenty at most.
 constexpr double log_lines_per_second = 100;
+constexpr std::chrono::milliseconds ready_retry{50};
 
 /// Everything that one run needs, in the order in which it must come and (backwards) go.
 class Run {
@@ -43,7 +49,7 @@ class Run {
           unit_(loop_, options,
                 scenario_ ? scenario_->cast.profile : host::load_profile_by_name(options.profile),
                 scenario_.get(), observers_),
-          signals_(loop_, {SIGINT, SIGTERM, SIGHUP}, [this](int number) { on_signal(number); }),
+          signals_(loop_, link::ending_signals, [this](int number) { on_signal(number); }),
           watch_(loop_, [this] { reload(); }) {}
 
     ExitCode operator()();
@@ -57,6 +63,8 @@ class Run {
     ExitCode outcome();
     void say_ready();
     void watch_profile();
+    void see_ready_off();
+    void warn_of_network();
     void reload();
     void on_signal(int number);
 
@@ -72,6 +80,7 @@ class Run {
     BoardUnit unit_;
     std::optional<panel::Panel> panel_;
     std::optional<host::ScriptHost> script_;
+    link::Timer ready_retry_{loop_, [this] { see_ready_off(); }};
     link::Signals signals_;
     host::ProfileWatch watch_;
 };
@@ -81,7 +90,7 @@ void Run::set_up() {
     observers_.add(log_);
     if (!options_.record.empty()) {
         recorder_.emplace(options_.record, [this](machine::SimTime, std::string_view text) {
-            unit_.say(board::Level::warning, text);
+            unit_.say(board::Level::error, text);
         });
         observers_.add(*recorder_);
     }
@@ -128,7 +137,8 @@ void Run::say_ready() {
     if (panel_) {
         ready["web"] = panel_->address();
     }
-    out_.write("ready " + ready.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) + "\n");
+    out_.keep("ready " + ready.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) + "\n");
+    see_ready_off();
     if (options_.json) {
         observers_.add(json_);  // not before: the ready line is the first
     }
@@ -149,6 +159,29 @@ void Run::watch_profile() {
     }
 }
 
+/// Until the line that scripts wait for has been taken. Where it never can be, nobody should wait.
+void Run::see_ready_off() {
+    if (!out_.flush()) {
+        return ready_retry_.after(ready_retry);
+    }
+    const int error = out_.error();
+    if (error != 0 && error != EPIPE && error != EBADF) {  // a closed stdout wants to hear nothing
+        throw link::HostError(fmt::format("The line \"ready\" cannot be written to stdout ({}).",
+                                          std::system_category().message(error)));
+    }
+}
+
+/// Who binds beyond this computer may not know that anybody can then drive the board.
+void Run::warn_of_network() {
+    for (const std::string& path : unit_.network_paths()) {
+        if (link::reaches_network(path)) {
+            unit_.say(board::Level::warning,
+                fmt::format("{} can be reached from other computers; whoever reaches it can drive this board",
+                            path));
+        }
+    }
+}
+
 void Run::reload() {
     try {
         auto profile = host::load_profile_by_name(options_.profile);
@@ -160,12 +193,16 @@ void Run::reload() {
         for (const behaviour::Problem& problem : error.problems()) {
             unit_.say(board::Level::error, problem.sentence());
         }
+    } catch (const std::exception& error) {  // of the system: out of memory, say
+        unit_.say(board::Level::error,
+            fmt::format("the changed profile cannot be loaded ({}), the one before stays in force",
+                        error.what()));
     }
 }
 
 void Run::on_signal(int number) {
     if (script_) {
-        script_->interrupt(number == SIGINT ? "by SIGINT" : number == SIGTERM ? "by SIGTERM" : "by SIGHUP");
+        script_->interrupt("by " + link::signal_name(number));
     }
     loop_.stop();
 }
@@ -179,6 +216,7 @@ ExitCode Run::operator()() {
                        std::vector{panel::Panel::Shown{unit_.profile()->name, *unit_.target()}});
     }
     say_ready();
+    warn_of_network();
     if (options_.reload && !scenario_) {  // which was checked against this one
         watch_profile();
     }

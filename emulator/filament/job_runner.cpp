@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "emulator/filament/event_rows.h"
@@ -35,7 +36,7 @@ void JobRunner::power_on() {
 
 void JobRunner::start(SimTime now) {
     stop();
-    lines_ = unknown_codes_ = source_.moves = 0;
+    lines_ = lines_cut_ = unknown_codes_ = source_.moves = 0;
     on_.modal = {};
     wake_ = source_.wake = source_.now = now;
     read_tail();
@@ -77,6 +78,7 @@ void JobRunner::seek() {
     enough_byte_ = on_.job.place() + breath_bytes;
     const Volume* volume = storage_.volume(on_.job.volume());
     reader_.close();
+    cut_ = 0;
     if (volume != nullptr) {
         reader_.open(*volume, on_.job.path(), on_.job.place());
     }
@@ -183,6 +185,9 @@ bool JobRunner::fetch() {
     switch (reader_.next(text)) {
         case GcodeReader::Result::line:
             break;
+        case GcodeReader::Result::passing_over:
+            line_ = {};
+            return true;
         case GcodeReader::Result::end:
             ended_ = true;
             return false;
@@ -193,6 +198,10 @@ bool JobRunner::fetch() {
     ++lines_;
     source_.next = reader_.byte();
     text_ = text;
+    if (std::exchange(cut_, reader_.lines_cut()) != reader_.lines_cut()) {
+        ++lines_cut_;
+        on_.events.raise(event("job.line_too_long"));
+    }
     parse_gcode(text, line_);
     if (!line_.comment.empty()) {
         take_comment();
@@ -243,6 +252,9 @@ void JobRunner::scout(std::uint64_t bytes) {
     GcodeReader::Result result = GcodeReader::Result::line;
     while (notes_.layers() == 0 && scout_.byte() < enough) {
         result = scout_.next(text);
+        if (result == GcodeReader::Result::passing_over) {
+            continue;
+        }
         if (result != GcodeReader::Result::line) {
             break;
         }
@@ -254,7 +266,8 @@ void JobRunner::scout(std::uint64_t bytes) {
     if (result == GcodeReader::Result::end) {
         notes_.set_layers(scout_notes_.layer());
     }
-    if (notes_.layers() != 0 || result != GcodeReader::Result::line) {
+    const bool over = result == GcodeReader::Result::end || result == GcodeReader::Result::failed;
+    if (notes_.layers() != 0 || over) {
         on_.job.layers = notes_.layers();
         scout_.close();
     }

@@ -18,6 +18,7 @@ struct JobCounts {
     std::uint64_t lines = 0;          ///< read, comments included
     std::uint64_t moves = 0;          ///< G0 to G3 carried out
     std::uint64_t unknown_codes = 0;  ///< skipped
+    std::uint64_t lines_cut = 0;      ///< too long to be read to their ends
 };
 
 /// Executes the file of a job: reads its lines as the planner has room, carries out their codes on the
@@ -52,7 +53,7 @@ class JobRunner : public machine::BegunCommand {
 
     bool run_code(bool by_rule) override;
 
-    JobCounts counts() const { return {lines_, source_.moves, unknown_codes_}; }
+    JobCounts counts() const { return {lines_, source_.moves, unknown_codes_, lines_cut_}; }
     /// The byte in the file at which the move under way begins: what a power cut loses begins here.
     std::uint64_t executed_byte() const;
 
@@ -80,6 +81,8 @@ class JobRunner : public machine::BegunCommand {
     GcodeSource source_;  ///< its byte: where line_ begins
     std::uint64_t lines_ = 0;
     std::uint64_t unknown_codes_ = 0;
+    std::uint64_t lines_cut_ = 0;
+    std::uint64_t cut_ = 0;  ///< of the reader, as far as told
     bool held_ = false;      ///< line_ is still to be carried out, once nothing moves
     bool ended_ = false;     ///< the file is at its end; the moves are not
     SimTime wake_{0};        ///< not to go on before

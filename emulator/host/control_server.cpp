@@ -33,6 +33,16 @@ class ControlServer::Client : public std::enable_shared_from_this<Client> {
 
     /// Throws link::LinkError when the event loop has no room for it.
     void start() { watch_.start(socket_.get()); }
+    /// Looks at one request of what came. False when nothing of it is left.
+    bool serve() {
+        if (session_) {
+            const std::size_t size = std::min(unread_.find('\n'), unread_.size() - 1) + 1;
+            session_->receive(std::string_view(unread_).substr(0, size));
+            unread_.erase(0, size);
+            pump();
+        }
+        return session_.has_value() && !unread_.empty();
+    }
     /// As far as it goes without waiting; then the socket is closed.
     void end() {
         if (session_) {
@@ -58,7 +68,7 @@ class ControlServer::Client : public std::enable_shared_from_this<Client> {
             server_.say_("a client of the control channel does not read what it asked for; dropped");
         } else if (!flush() || !session_->over() || !written()) {
             if (session_) {
-                watch_.hold(ended_ || !session_->wants_input());
+                watch_.hold(ended_ || !unread_.empty() || !session_->wants_input());
             }
             return;
         }
@@ -96,7 +106,9 @@ class ControlServer::Client : public std::enable_shared_from_this<Client> {
         const auto self = shared_from_this();  // leave() may drop the last one
         const ssize_t size = link::read_socket(socket_.get(), buffer_.data(), buffer_.size());
         if (size > 0) {
-            session_->receive({buffer_.data(), static_cast<std::size_t>(size)});
+            unread_.assign(buffer_.data(), static_cast<std::size_t>(size));
+            watch_.hold(true);
+            return server_.queue(self);
         } else if (size == 0) {
             ended_ = true;
             session_->finish();
@@ -124,6 +136,7 @@ class ControlServer::Client : public std::enable_shared_from_this<Client> {
     link::Watch watch_;
     std::optional<Session> session_;
     std::array<char, 4096> buffer_{};
+    std::string unread_;  ///< what came and is not looked at; nothing is read meanwhile
     std::string writing_;
     std::size_t at_ = 0;  ///< so much of it is written
     bool ended_ = false;  ///< the client has said all it will
@@ -176,6 +189,33 @@ void ControlServer::turn_away(const UniqueFd& socket) const {
                     most_clients));
     const std::string line = control::to_line({{"ok", false}, {"error", control::error_json(error)}});
     (void)link::write_socket(socket.get(), line.data(), line.size());
+}
+
+/// Put off to the loop's next turn; dropped if this is gone by then.
+template <class Task>
+void ControlServer::post(Task task) {
+    parts_.loop.post([life = std::weak_ptr(life_), task = std::move(task)] {
+        if (!life.expired()) task();
+    });
+}
+
+void ControlServer::queue(const std::shared_ptr<Client>& client) {
+    const bool first = queue_.empty();
+    queue_.push_back(client);
+    if (first) {
+        post([this] { serve_next(); });
+    }
+}
+
+void ControlServer::serve_next() {
+    const std::shared_ptr<Client> client = queue_.front().lock();
+    queue_.pop_front();
+    if (client && client->serve()) {
+        queue_.push_back(client);
+    }
+    if (!queue_.empty()) {
+        post([this] { serve_next(); });
+    }
 }
 
 void ControlServer::leave(const Client& client) {

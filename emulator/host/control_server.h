@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <memory>
 #include <string>
@@ -34,11 +35,18 @@ class ControlServer final {
     void take(link::UniqueFd socket);
     void turn_away(const link::UniqueFd& socket) const;
     void leave(const Client& client);
+    template <class Task>
+    void post(Task task);
+    void queue(const std::shared_ptr<Client>& client);
+    void serve_next();
 
     link::EventLoop& loop_;
     control::Hub& hub_;
     std::function<void(std::string_view)> say_;
     std::vector<std::shared_ptr<Client>> clients_;
+    /// Who has said something that was not looked at yet. One request is carried out on a turn of the loop,
+    /// each client's in turn: a client that floods us slows down itself, neither the others nor the line.
+    std::deque<std::weak_ptr<Client>> queue_;
     link::LocalListener listener_;
 };
 

@@ -239,11 +239,21 @@ bool FolderCard::rename(std::string_view from, std::string_view to) {
     if (!old_folder || !new_folder || !is_file(look_at(old_folder.get(), old_name, bytes))) {
         return false;
     }
+    // What is in the file must be on the disk before it has its name: else a power cut of this computer could
+    // leave the name with nothing, or half of it.
+    const UniqueFd file = open_file(from, O_RDONLY);
+    if (!file || ::fsync(file.get()) != 0) {
+        return false;
+    }
     // Something else of that name is not shown, and must stay.
     struct stat info {};
     const bool taken = ::fstatat(new_folder.get(), new_name.c_str(), &info, AT_SYMLINK_NOFOLLOW) == 0;
-    return !(taken && !S_ISREG(info.st_mode)) &&
-           ::renameat(old_folder.get(), old_name.c_str(), new_folder.get(), new_name.c_str()) == 0;
+    if ((taken && !S_ISREG(info.st_mode)) ||
+        ::renameat(old_folder.get(), old_name.c_str(), new_folder.get(), new_name.c_str()) != 0) {
+        return false;
+    }
+    ::fsync(new_folder.get());  // the name itself; some file systems refuse, and there is nothing to do then
+    return true;
 }
 
 bool FolderCard::remove(std::string_view path) {

@@ -2,30 +2,15 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "emulator/behaviour/nearest.h"
+#include "emulator/host/text_file.h"
 
 namespace fauxboard::host {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::uintmax_t max_profile_bytes = 4U * 1024 * 1024;
-
-std::optional<behaviour::SourceText> read(const fs::path& file) {
-    std::error_code error;
-    if (!fs::is_regular_file(file, error) || fs::file_size(file, error) > max_profile_bytes) {
-        return std::nullopt;
-    }
-    std::ifstream in(file, std::ios::binary);
-    if (!in) {
-        return std::nullopt;
-    }
-    std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-    return behaviour::SourceText{file.string(), std::move(text)};
-}
 
 bool is_path(std::string_view name) {
     return name.find('/') != std::string_view::npos || name.ends_with(".json");
@@ -34,16 +19,16 @@ bool is_path(std::string_view name) {
 std::optional<behaviour::SourceText> find(std::string_view name, std::string_view from) {
     const fs::path beside = from.empty() ? fs::path{} : fs::path(from).parent_path();
     if (is_path(name)) {
-        return read(from.empty() ? fs::path(name) : beside / name);
+        return read_source(from.empty() ? fs::path(name) : beside / name);
     }
     const std::string file = std::string(name) + ".json";
     if (!from.empty()) {
-        if (auto found = read(beside / file)) {
+        if (auto found = read_source(beside / file)) {
             return found;
         }
     }
     for (const fs::path& folder : profile_folders()) {
-        if (auto found = read(folder / file)) {
+        if (auto found = read_source(folder / file)) {
             return found;
         }
     }
@@ -67,6 +52,18 @@ std::vector<fs::path> named_folders() {
 }
 
 }  // namespace
+
+std::optional<behaviour::SourceText> read_source(const fs::path& file) {
+    FileText found = read_text_file(file);
+    if (!found.trouble.empty()) {
+        behaviour::Problem problem;
+        problem.file = file.string();
+        problem.message = std::move(found.trouble);
+        throw behaviour::ProfileError({problem});
+    }
+    return found.text ? std::optional(behaviour::SourceText{file.string(), *std::move(found.text)})
+                      : std::nullopt;
+}
 
 std::vector<fs::path> profile_folders() {
     std::vector<fs::path> folders = named_folders();
@@ -102,7 +99,7 @@ std::shared_ptr<const behaviour::Profile> load_profile_by_name(std::string_view 
     behaviour::Problem problem;
     problem.file = std::string(name);
     if (is_path(name)) {
-        problem.message = "no such file, or it cannot be read, or it is larger than 4 MiB";
+        problem.message = "there is no such file";
     } else {
         const std::vector<ProfileEntry> entries = list_profiles();
         std::vector<std::string_view> names;
@@ -124,15 +121,16 @@ std::vector<ProfileEntry> list_profiles(const std::vector<fs::path>& folders) {
     std::vector<ProfileEntry> entries;
     for (const fs::path& folder : folders) {
         std::error_code error;
-        for (const auto& item : fs::directory_iterator(folder, error)) {
+        for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+            const fs::directory_entry& item = *at;
             if (item.path().extension() != ".json") {
                 continue;
             }
-            const auto source = read(item.path());
-            if (!source) {
+            const FileText source = read_text_file(item.path());
+            if (!source.text) {
                 continue;
             }
-            const auto json = behaviour::Json::parse(source->text, nullptr, false);
+            const auto json = behaviour::Json::parse(*source.text, nullptr, false);
             if (!json.is_object() || !json.contains("name") || !json["name"].is_string()) {
                 continue;
             }

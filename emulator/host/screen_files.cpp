@@ -42,7 +42,7 @@ std::shared_ptr<const screen::ScreenProfile> load_screen_by_name(std::string_vie
     behaviour::Problem problem;
     problem.file = std::string(name);
     if (name.find('/') != std::string_view::npos || name.ends_with(".json")) {
-        problem.message = "no such file, or it cannot be read, or it is larger than 4 MiB";
+        problem.message = "there is no such file";
     } else {
         const std::vector<ProfileEntry> entries = list_screens();
         std::vector<std::string_view> names;

@@ -57,7 +57,7 @@ behaviour::SourceText find_script(std::string_view name) {
     const std::vector<ProfileEntry> entries = list_scripts();
     std::vector<std::string_view> names;
     if (is_path(name)) {
-        problem.message = "no such file, or it cannot be read, or it is larger than 4 MiB";
+        problem.message = "there is no such file";
     } else {
         problem.message = "there is no scenario of this name; known:";
         for (const ProfileEntry& entry : entries) {

@@ -94,6 +94,9 @@ class Link {
 /// A line that leads nowhere: nobody is ever there, and what is written to it is lost. Its kind is "none".
 std::unique_ptr<Link> make_no_link();
 
+/// Whether a path() of TCP or UDP can be reached from other computers: any address that is not loopback.
+bool reaches_network(const std::string& path);
+
 /// A pseudo-terminal of our own. `link_name`: a symlink to it, removed by close(); "" for none. An existing
 /// name is replaced only if it is a symlink that points nowhere. What is written before the first peer opens
 /// it is kept for that peer, up to `backlog_limit`; what is written while nobody has it open later on is

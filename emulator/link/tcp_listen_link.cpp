@@ -76,7 +76,7 @@ void TcpListenLink::close_device() {
 void TcpListenLink::on_client(UniqueFd fd) {
     const SocketAddress peer = SocketAddress::of_peer(fd.get());
     if (!peer.known()) return;  // gone again
-    send_at_once(fd.get());
+    prepare_line(fd.get());
     Client client{std::move(fd), peer.text()};
     if (!client_.fd) return serve(std::move(client));
     // One that reconnects may be seen here before its former connection's end has been read.

@@ -32,6 +32,8 @@ inline constexpr auto common_events = std::to_array<EventInfo>({
     {"job.message", "the file being printed has a message (M117): job.message"},
     {"job.waits_for_user",
      "the file being printed, or the USB side, waits for the user (M0, M1, M600); resuming goes on"},
+    {"job.line_too_long",
+     "a line of the file being printed is longer than 1024 bytes; the rest of it is passed over"},
     {"host.done", "a command of the USB side is over, and nothing of its own has acknowledged it"},
     {"host.busy", "the USB side has been waiting for its command for machine.host.busy_s"},
     {"host.unknown", "the USB side sent a command that nobody knows: host.command"},

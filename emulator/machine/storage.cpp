@@ -303,13 +303,19 @@ bool Storage::path_for_writing(std::string_view name, std::string& path) const {
     return kind == Volume::Kind::missing || kind == Volume::Kind::file;
 }
 
+std::string unfinished_path(const Volume& disk, const std::string& path) {
+    std::uint64_t bytes = 0;
+    const bool is_free = disk.look(path + ".temp", bytes) == Volume::Kind::missing;
+    return path + (is_free ? ".temp" : ".fauxboard-temp");
+}
+
 bool Storage::write(std::string_view name, std::string_view bytes) {
     std::string path;
     Volume* const disk = writable(chosen_);
     if (disk == nullptr || !path_for_writing(name, path)) {
         return false;
     }
-    const std::string beside = path + std::string(unfinished_ending);
+    const std::string beside = unfinished_path(*disk, path);
     return disk->create(beside) && disk->append(beside, 0, bytes) && disk->rename(beside, path);
 }
 

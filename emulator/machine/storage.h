@@ -168,8 +168,9 @@ class Storage {
     Naming naming_;
 };
 
-/// What stands behind the name of a file that is being written.
-inline constexpr std::string_view unfinished_ending = ".temp";
+/// What stands behind the name of a file that is being written: ".temp" as real boards have it; where the
+/// disk has something of that name, which may be the user's, an ending that nobody but us gives.
+std::string unfinished_path(const Volume& disk, const std::string& path);
 
 /// Joins `name` to `folder` and cleans the result: volume names ("SD1:") and double slashes go. False when it
 /// would leave the root, holds a control character, or is longer than 255 bytes.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <functional>
 #include <istream>
 #include <nlohmann/json.hpp>
 
@@ -117,6 +118,31 @@ std::optional<RecordedLine> RecordingReader::parse() {
         out.peer = peer.get<std::uint64_t>();
     }
     return out;
+}
+
+std::optional<RecordedLine> OrderedRecording::next() {
+    while (!ended_ && heap_.size() < window) {
+        auto line = reader_.next();
+        if (!line) {
+            ended_ = true;
+            break;
+        }
+        if (any_ && line->t < last_) {
+            throw RecordingError(reader_.name(), reader_.line(),
+                                 fmt::format("its time lies before that of {} entries ahead of it", window));
+        }
+        heap_.push_back({*std::move(line), read_++});
+        std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
+    }
+    if (heap_.empty()) {
+        return std::nullopt;
+    }
+    std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
+    RecordedLine line = std::move(heap_.back().line);
+    heap_.pop_back();
+    last_ = line.t;
+    any_ = true;
+    return line;
 }
 
 std::vector<RecordedLine> load_recording(std::istream& in, std::string_view name) {

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "emulator/machine/sim_time.h"
@@ -62,6 +63,7 @@ class RecordingReader {
     std::optional<RecordedLine> next();
     /// Line of the file that next() looked at last; 1 is the first.
     std::size_t line() const { return line_; }
+    const std::string& name() const { return name_; }
 
   private:
     bool read_text();
@@ -72,6 +74,31 @@ class RecordingReader {
     std::string name_;
     std::string text_;
     std::size_t line_ = 0;
+};
+
+/// A recording's entries by time, of which no more than `window` are held: a small recording may be in any
+/// order, a large one must be in order but for so many entries.
+class OrderedRecording {
+  public:
+    static constexpr std::size_t window = 50'000;
+    explicit OrderedRecording(RecordingReader reader) : reader_(std::move(reader)) {}
+    /// The next entry, or nothing at the end. Throws RecordingError, also for one that comes too late.
+    std::optional<RecordedLine> next();
+
+  private:
+    struct Held {
+        RecordedLine line;
+        std::uint64_t number;  ///< entries of the same time stay in their order
+        bool operator>(const Held& other) const {
+            return std::pair(line.t, number) > std::pair(other.line.t, other.number);
+        }
+    };
+    RecordingReader reader_;
+    std::vector<Held> heap_;
+    std::uint64_t read_ = 0;
+    machine::SimTime last_{0};
+    bool any_ = false;
+    bool ended_ = false;
 };
 
 /// A whole recording, ordered by time (entries of the same time stay in the order of the file). Throws

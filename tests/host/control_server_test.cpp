@@ -124,6 +124,31 @@ TEST_CASE("several requests in one write, and one in many") {
     CHECK(json::parse(client.line())["id"] == 4);
 }
 
+TEST_CASE("a client that floods is slowed down; the others and the line have their turn") {
+    Bench b;
+    Client flood(b);
+    Client other(b);
+    std::string requests;
+    for (int i = 0; i < 150; ++i) {
+        requests += "{\"op\": \"status\"}\n";
+    }
+    flood.say(requests);
+    link::test::run_ready(b.loop);
+    other.say("{\"id\": 7, \"op\": \"status\"}\n");
+    // So many turns of the loop, and so many times the line's own, are between what the flood asks.
+    for (int turn = 0; turn < 8; ++turn) {
+        link::test::run_ready(b.loop);
+    }
+    other.take();
+    CHECK(other.rest.find("\"id\":7") != std::string::npos);
+    flood.take();
+    CHECK(std::count(flood.rest.begin(), flood.rest.end(), '\n') < 12);
+    CHECK(b.answers());
+    for (int i = 0; i < 150; ++i) {
+        CHECK(json::parse(flood.line())["ok"] == true);
+    }
+}
+
 TEST_CASE("time jumps: everything due on the way is done at its moment, however far it is") {
     Bench b;
     Witness witness;
