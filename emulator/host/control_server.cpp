@@ -194,7 +194,7 @@ void ControlServer::turn_away(const UniqueFd& socket) const {
 /// Put off to the loop's next turn; dropped if this is gone by then.
 template <class Task>
 void ControlServer::post(Task task) {
-    parts_.loop.post([life = std::weak_ptr(life_), task = std::move(task)] {
+    loop_.post([life = std::weak_ptr(life_), task = std::move(task)] {
         if (!life.expired()) task();
     });
 }

@@ -48,6 +48,8 @@ class ControlServer final {
     /// each client's in turn: a client that floods us slows down itself, neither the others nor the line.
     std::deque<std::weak_ptr<Client>> queue_;
     link::LocalListener listener_;
+    /// What is posted to the event loop finds this gone when this object is.
+    std::shared_ptr<int> life_ = std::make_shared<int>();
 };
 
 }  // namespace fauxboard::host

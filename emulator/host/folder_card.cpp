@@ -62,6 +62,18 @@ bool is_file(machine::Volume::Kind kind) {
     return kind == machine::Volume::Kind::file || kind == machine::Volume::Kind::unreadable;
 }
 
+/// As FAT packs date and time: years since 1980, month, day, hours, minutes, pairs of seconds.
+std::uint32_t fat_stamp(std::int64_t local_s) {
+    constexpr std::int64_t first_s = 315'532'800;    // 1980
+    constexpr std::int64_t last_s = 4'354'819'198;  // the end of 2107
+    const std::time_t time = std::clamp(local_s, first_s, last_s);
+    std::tm parts{};
+    ::gmtime_r(&time, &parts);
+    const int packed_date = (parts.tm_year - 80) << 9 | (parts.tm_mon + 1) << 5 | parts.tm_mday;
+    const int packed_time = parts.tm_hour << 11 | parts.tm_min << 5 | parts.tm_sec / 2;
+    return static_cast<std::uint32_t>(packed_date) << 16 | static_cast<std::uint32_t>(packed_time);
+}
+
 /// When it was written last, seconds since 1970 in local time; 0 when that is not known.
 std::int64_t modified_s(int folder, const std::string& name) {
     struct stat info {};
@@ -139,7 +151,7 @@ bool FolderCard::list(std::string_view folder, std::vector<CardEntry>& out) cons
             ++count;
             const std::int64_t modified = modified_s(fd.get(), name);
             (kind == Kind::folder ? folders : out)
-                .push_back({std::move(name), kind == Kind::folder, bytes, modified});
+                .push_back({std::move(name), kind == Kind::folder, bytes, fat_stamp(modified), {}, modified});
         }
     }
     std::move(folders.begin(), folders.end(), std::back_inserter(out));

@@ -224,7 +224,7 @@ void World::say(Channel channel, std::string_view bytes) {
 void World::command(std::string_view body) {
     const std::string line = fmt::format("N{} {}", ++line_number_, body);
     say(Channel::host, fmt::format("{}*{}\n", line, checksum(line)));
-    line_number_ = board_->machine().host_side().last_line;  // one that was not taken is not counted
+    line_number_ = board_->machine().host_side().line().last;  // one that was not taken is not counted
 }
 
 void World::datagram(std::uint64_t peer, std::string_view bytes) {
