@@ -47,7 +47,7 @@ Board::Board(std::shared_ptr<const behaviour::Profile> profile, machine::Service
       scratch_(scratch_bytes) {
     port(Channel::main).connected = true;
     if (profile_->line.framing == behaviour::Framing::commands) {
-        machine_->file_commands = this;
+        machine_->commands.of_files = this;
     }
     for (const Channel channel : {Channel::main, Channel::host}) {
         if (takes_commands(channel)) {

@@ -126,15 +126,15 @@ HostLineFault Board::judge(const protocol::HostLine& line, std::int64_t last, bo
 }
 
 /// Says what is wrong, by the profile's words for the event, to the line that is to send it again.
-void Board::complain(Channel channel, EventId event) {
+void Board::complain(Channel channel, EventId what) {
     machine::HostSide& host = machine_->host_side();
     const std::size_t speaker = std::exchange(host.speaker, index(channel));
-    if (event != event("host.overflow")) {
+    if (what != event("host.overflow")) {
         ++counters_.bad_frames;
         ++host.line().resends;
         port(channel).deaf_at = time_;
     }
-    machine_->events.raise(event);
+    machine_->events.raise(what);
     settle(channel);
     host.speaker = speaker;
 }

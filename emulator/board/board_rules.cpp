@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "emulator/board/board_front.h"
+#include "emulator/machine/event_rows.h"
 #include "protocol/command.h"
 
 namespace fauxboard::board {
@@ -31,7 +32,7 @@ bool Board::execute(Channel channel, std::string_view body, bool begun) {
     asker_ = asker_on(channel);
     answered_ = false;
     if ((rules != nullptr && run_rules(*rules, &command)) ||
-        (begun && command.letter != 0 && machine_->host_side().run_code())) {
+        (begun && command.letter != 0 && machine_->host_side().run_code(false))) {
         return answered_;
     }
     ++(rules == nullptr ? counters_.unknown_codes : counters_.unmatched);
@@ -102,7 +103,7 @@ void Board::run_rule(const Rule& rule, const Scope& here) {
     for (const behaviour::ActionCall& call : rule.actions) {
         behaviour::run_action(call, here, profile_->variables, context);
     }
-    if (context.reset && machine_->begun.source != nullptr) {
+    if (context.reset && machine_->commands.begun != nullptr) {
         machine_->request_reset(machine_->restart);  // from inside a command: when it is over
     } else if (context.reset) {
         power_on(time_);

@@ -91,7 +91,7 @@ void set_line_number(GcodeSource& r, Line line) {
 void keepalive(GcodeSource& r, Line line) {
     if (line.has('S')) {
         constexpr double most_s = 60;
-        r.on.host.set_busy_s(std::clamp(line.number('S'), 0.0, most_s));
+        r.on.host.set_busy_s(std::clamp(line.number('S'), 0.0, most_s), r.now);
     }
 }
 
