@@ -178,6 +178,7 @@ void MksBoard::raise(Event event) {
         sound_for(settings.general.buzzer_msg_ms);
     }
     if (event == Event::files_changed || event == Event::files_deleted) {
+        previews.forget();
         files.refresh();
     }
     listener_.raise(event);
@@ -348,6 +349,7 @@ void MksBoard::reset_counters(SimTime now) {
 }
 
 void MksBoard::stick_changed() {
+    previews.forget();
     files.home();
     listener_.raise(Event::files_changed);
 }

@@ -11,6 +11,7 @@
 #include "emulator/dlp/eeprom_chip.h"
 #include "emulator/dlp/file_list.h"
 #include "emulator/dlp/motor.h"
+#include "emulator/dlp/previews.h"
 #include "emulator/dlp/print.h"
 #include "emulator/dlp/uv_test.h"
 
@@ -95,6 +96,7 @@ class MksBoard final : private Listener {
     Print print;
     UvTest uv_test;
     FileList files;
+    Previews previews;
     Calendar calendar;
     EepromChip eeprom;
 
