@@ -14,6 +14,7 @@
 #include "emulator/dlp/previews.h"
 #include "emulator/dlp/print.h"
 #include "emulator/dlp/uv_test.h"
+#include "emulator/dlp/watch.h"
 
 namespace fauxboard::dlp {
 
@@ -98,10 +99,12 @@ class MksBoard final : private Listener {
     FileList files;
     Previews previews;
     Calendar calendar;
+    Watch watch;
     EepromChip eeprom;
 
   private:
     void raise(Event event) override;
+    void watch_event(Event event);
     void note(const std::string& text) override { listener_.note(text); }
     void write_block(Block block, SimTime now);
     void sound_for(std::uint32_t time_ms);
