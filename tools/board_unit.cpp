@@ -40,6 +40,10 @@ link::Link& BoardUnit::make_wire() {
 }
 
 std::unique_ptr<link::Link> BoardUnit::make_link() {
+    if (profile_->line.none && options_.line_given) {
+        throw link::HostError(fmt::format(
+            "The board of the profile {} has no line: leave --port, --pty and --tcp out.", profile_->name));
+    }
     if (!has_main_line()) {
         return link::make_no_link();
     }
@@ -67,12 +71,7 @@ std::unique_ptr<link::Link> BoardUnit::make_host_link() {
 void BoardUnit::set_up() {
     machine::Services services;
     set_up_disks(services);
-    if (!options_.eeprom.empty()) {
-        const auto trouble = [this](std::string_view text) { say(board::Level::error, text); };
-        // The place first: it is what tells that another board has both.
-        services.job_place = &job_place_.emplace(host::JobPlaceFile::beside(options_.eeprom), trouble);
-        services.eeprom = &eeprom_.emplace(options_.eeprom, trouble);
-    }
+    set_up_memory(services);
     board::Options options;
     options.pacing = options_.pacing;
     options.seed = options_.seed;
@@ -81,6 +80,7 @@ void BoardUnit::set_up() {
         options.front = &screen_.emplace(host::load_own_screen(profile_->screen));
     }
     board_.emplace(profile_, services, options);
+    set_up_panel_folder();
     board_->connect(board::Channel::main, has_main_line());
     link_.emplace(make_wire(), *clock_, fault::Direction::to_board);
     if (options_.host.wanted()) {
@@ -103,10 +103,40 @@ void BoardUnit::add_faults() {
         if (!fault::is_for_printer(spec)) {
             faults_->add(spec);
         } else if (board_->machine().faults.add(SimTime{0}, fault::to_request(spec)) == 0) {
-            throw fault::FaultSpecError({fmt::format(
-                "fault \"{}\": {}", text, board_->machine().faults.refusal(*spec.kind->printer))});
+            throw fault::FaultSpecError({fmt::format("fault \"{}\": {}", text,
+                                                     board_->machine().faults.refusal(*spec.kind->printer))});
         }
     }
+}
+
+/// What a board keeps when it is off: some as values, some byte by byte.
+void BoardUnit::set_up_memory(machine::Services& services) {
+    if (options_.eeprom.empty()) {
+        return;
+    }
+    if (profile_->machine->eeprom_bytes != 0) {
+        services.eeprom_cells = &eeprom_cells_.emplace(options_.eeprom, profile_->machine->eeprom_bytes);
+        return;
+    }
+    const auto trouble = [this](std::string_view text) { say(board::Level::error, text); };
+    // The place first: it is what tells that another board has both.
+    services.job_place = &job_place_.emplace(host::JobPlaceFile::beside(options_.eeprom), trouble);
+    services.eeprom = &eeprom_.emplace(options_.eeprom, trouble);
+}
+
+void BoardUnit::set_up_panel_folder() {
+    if (options_.panel.empty()) {
+        return;
+    }
+    const auto* const machine = machine::as<dlp::Printer>(board_->machine());
+    if (machine == nullptr) {
+        throw link::HostError(
+            fmt::format("The board of the profile {} has no UV panel: leave --panel out.", profile_->name));
+    }
+    panel_folder_.emplace(options_.panel,
+                          [this](std::string_view text) { say(board::Level::warning, text); });
+    panel_folder_->watch(*machine);
+    observers_.add(*panel_folder_);
 }
 
 void BoardUnit::set_up_disks(machine::Services& services) {
@@ -127,8 +157,8 @@ void BoardUnit::set_up_disks(machine::Services& services) {
 }
 
 void BoardUnit::open_target(std::function<void()> quit) {
-    target_.emplace(host::LiveTarget::Parts{loop_, *board_, *live_, *clock_, *link_, &*faults_, std::move(quit),
-                                            options_.speed.max ? 0 : options_.speed.factor,
+    target_.emplace(host::LiveTarget::Parts{loop_, *board_, *live_, *clock_, *link_, &*faults_,
+                                            std::move(quit), options_.speed.max ? 0 : options_.speed.factor,
                                             plug_ ? nullptr : host::screen_of(*profile_), display_.get()});
     if (plug_) {
         target_->show(*plug_);

@@ -10,6 +10,7 @@
 #include "emulator/control/display.h"
 #include "emulator/host/clock.h"
 #include "emulator/host/control_server.h"
+#include "emulator/host/eeprom_cells_file.h"
 #include "emulator/host/eeprom_file.h"
 #include "emulator/host/faulty_link.h"
 #include "emulator/host/folder_card.h"
@@ -24,6 +25,7 @@
 #include "emulator/machine/memory_volume.h"
 #include "emulator/script/scenario.h"
 #include "emulator/touch/touch_screen.h"
+#include "tools/panel_folder.h"
 #include "tools/run_options.h"
 
 namespace fauxboard::tools {
@@ -76,11 +78,14 @@ class BoardUnit {
 
   private:
     void set_up_disks(machine::Services& services);
+    void set_up_memory(machine::Services& services);
+    void set_up_panel_folder();
     void add_faults();
     link::Link& make_wire();
     /// A board that can do without its screen has no line for one when only its USB side was asked for.
     bool has_main_line() const {
-        return options_.line_given || !options_.host.wanted() || !profile_->line.optional;
+        return !profile_->line.none &&
+               (options_.line_given || !options_.host.wanted() || !profile_->line.optional);
     }
     std::unique_ptr<link::Link> make_link();
     std::unique_ptr<link::Link> make_host_link();
@@ -94,7 +99,9 @@ class BoardUnit {
     std::optional<host::FolderCard> udisk_;
     std::optional<machine::MemoryVolume> scenario_card_;
     std::optional<host::EepromFile> eeprom_;
+    std::optional<host::EepromCellsFile> eeprom_cells_;
     std::optional<host::JobPlaceFile> job_place_;
+    std::optional<PanelFolder> panel_folder_;
     std::unique_ptr<host::Clock> clock_;
     std::unique_ptr<link::Link> wire_;  ///< the line as it is, if it leads out of this process
     std::optional<host::ScreenPlug> plug_;

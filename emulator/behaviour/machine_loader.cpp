@@ -1,9 +1,31 @@
 #include "emulator/behaviour/machine_loader.h"
+#include "emulator/sliced/sample.h"
 
 namespace fauxboard::behaviour {
 namespace {
 
 constexpr std::size_t max_card_entries = 4096;
+
+/// A made-up file that a resin printer can print.
+void load_sample(const Json& node, const std::string& pointer, Findings& findings, std::string& content) {
+    constexpr unsigned most_layers = 200;
+    sliced::Sample sample;
+    ObjectReader reader(node, pointer, findings);
+    const auto measure = [&reader](std::string_view key, float& out, double max) {
+        double value = static_cast<double>(out);
+        reader.number(key, value, 0, max);
+        out = static_cast<float>(value);
+    };
+    reader.unsigned_integer("layers", sample.layers, 1, most_layers);
+    measure("exposure_s", sample.exposure_s, 86'400);
+    measure("layer_height_mm", sample.layer_height_mm, 1);
+    measure("lift_mm", sample.lift_mm, 100);
+    measure("lift_mm_min", sample.lift_mm_min, 6000);
+    reader.unsigned_integer("width", sample.width, 16, 4096);
+    reader.unsigned_integer("height", sample.height, 16, 4096);
+    reader.finish();
+    content = sliced::make_sample(sample);
+}
 
 void load_entries(const Json& node, const std::string& pointer, Findings& findings,
                   std::vector<machine::BuiltInEntry>& out, std::size_t& count);
@@ -20,6 +42,9 @@ void load_entry(const Json& node, const std::string& pointer, Findings& findings
     }
     if (const Json* entries = reader.get("entries")) {
         load_entries(*entries, reader.pointer("entries"), findings, entry.entries, count);
+    }
+    if (const Json* sample = reader.get("sample")) {
+        load_sample(*sample, reader.pointer("sample"), findings, entry.content);
     }
     if (const Json* lines = reader.get("lines")) {
         for (const Json& line : *lines) {

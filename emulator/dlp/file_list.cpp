@@ -55,7 +55,8 @@ void FileList::refresh() {
     for (StickEntry& entry : entries) {
         const auto kind = kind_of(entry, ctb_);
         if (kind && files_.size() < most_files) {
-            files_.push_back({std::move(entry), *kind});
+            std::string date = date_text(entry.modified_s);
+            files_.push_back({std::move(entry), *kind, std::move(date)});
         }
     }
 }

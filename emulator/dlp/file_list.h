@@ -16,6 +16,7 @@ std::string_view to_string(FileKind kind);
 struct ListedFile {
     StickEntry entry;
     FileKind kind = FileKind::folder;
+    std::string date;  ///< see date_text()
 };
 
 /// The folder of the stick that the board shows: folders, and files whose ending it knows, in lower case.

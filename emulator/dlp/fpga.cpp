@@ -107,4 +107,12 @@ const std::string& Fpga::md5(unsigned bank) const {
     return known;
 }
 
+std::uint64_t Fpga::sum(unsigned bank) const {
+    std::uint64_t sum = 0;
+    for (unsigned n = 0; n < panel_lines; ++n) {
+        sum = add_line(sum, line(bank, n));
+    }
+    return sum;
+}
+
 }  // namespace fauxboard::dlp

@@ -68,6 +68,8 @@ class Fpga {
     std::uint32_t lit_pixels(unsigned bank) const;
     /// MD5 of the 2560 packets that bring this picture into bank 0.
     const std::string& md5(unsigned bank) const;
+    /// add_line() of all its lines.
+    std::uint64_t sum(unsigned bank) const;
 
     FpgaTrouble trouble;
 

@@ -76,6 +76,7 @@ void MksBoard::power_on(SimTime now) {
     uv_test.power_on();
     view_ = {};
     sound_ = {};
+    watch = {};
     task_ = SetupTask::none;
     task_event_.reset();
     report_.reset();
@@ -156,6 +157,7 @@ void MksBoard::settle(SimTime now) {
     print.advance(now);
     motor.follow(print.state() != PrintState::idle, settings.motor, now);
     count_work(now);
+    watch.look(lamp.on(), platform.busy(), print.active() && print.homed(), platform.position(now));
 }
 
 /// What a print that ended adds to the working times.
@@ -173,11 +175,30 @@ void MksBoard::count_work(SimTime now) {
     write_block(Block::counters, now);
 }
 
+void MksBoard::watch_event(Event event) {
+    switch (event) {
+        case Event::print_exposed:
+            watch.exposed(lamp.last(), print.plan().exposure_s / print.antialiasing());
+            break;
+        case Event::print_displayed:
+            watch.wrong_pictures += print.active() && (panel.white() || !print.picture_arrived()) ? 1U : 0U;
+            break;
+        case Event::print_finished:
+        case Event::print_cancelled:
+            watch.lit_at_end += lamp.on() ? 1U : 0U;
+            break;
+        default:
+            break;
+    }
+}
+
 void MksBoard::raise(Event event) {
+    watch_event(event);
     if (std::find(loud.begin(), loud.end(), event) != loud.end()) {
         sound_for(settings.general.buzzer_msg_ms);
     }
     if (event == Event::files_changed || event == Event::files_deleted) {
+        previews.forget();
         files.refresh();
     }
     listener_.raise(event);
@@ -348,6 +369,7 @@ void MksBoard::reset_counters(SimTime now) {
 }
 
 void MksBoard::stick_changed() {
+    previews.forget();
     files.home();
     listener_.raise(Event::files_changed);
 }

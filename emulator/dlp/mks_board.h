@@ -11,8 +11,10 @@
 #include "emulator/dlp/eeprom_chip.h"
 #include "emulator/dlp/file_list.h"
 #include "emulator/dlp/motor.h"
+#include "emulator/dlp/previews.h"
 #include "emulator/dlp/print.h"
 #include "emulator/dlp/uv_test.h"
+#include "emulator/dlp/watch.h"
 
 namespace fauxboard::dlp {
 
@@ -95,11 +97,14 @@ class MksBoard final : private Listener {
     Print print;
     UvTest uv_test;
     FileList files;
+    Previews previews;
     Calendar calendar;
+    Watch watch;
     EepromChip eeprom;
 
   private:
     void raise(Event event) override;
+    void watch_event(Event event);
     void note(const std::string& text) override { listener_.note(text); }
     void write_block(Block block, SimTime now);
     void sound_for(std::uint32_t time_ms);

@@ -64,6 +64,16 @@ std::uint32_t count_lit(std::span<const std::uint8_t> lines) {
     return static_cast<std::uint32_t>(count);
 }
 
+std::uint64_t add_line(std::uint64_t sum, std::span<const std::uint8_t> line) {
+    constexpr std::uint64_t prime = 0x0000'0100'0000'01B3;
+    for (std::size_t at = 0; at + 8 <= line.size(); at += 8) {
+        std::uint64_t word = 0;
+        std::memcpy(&word, &line[at], sizeof word);
+        sum = (sum ^ word) * prime + (sum >> 29);
+    }
+    return sum;
+}
+
 void seal(Packet& packet, unsigned bank, unsigned line) {
     packet[0] = static_cast<std::uint8_t>(sdram_bit | bank << 4 | line >> 8);
     packet[1] = static_cast<std::uint8_t>(line & 0xFF);

@@ -25,6 +25,9 @@ bool lit(std::span<const std::uint8_t> line, std::uint32_t column);
 /// Lit pixels of whole lines, dead ones left out.
 std::uint32_t count_lit(std::span<const std::uint8_t> lines);
 
+/// A sum over lines in their order, quick to make.
+std::uint64_t add_line(std::uint64_t sum, std::span<const std::uint8_t> line);
+
 /// A line on its way to the panel.
 constexpr std::size_t packet_bytes = line_bytes + 4;
 using Packet = std::array<std::uint8_t, packet_bytes>;

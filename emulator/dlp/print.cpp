@@ -228,8 +228,10 @@ void Print::end_load(SimTime now) {
     parts_.panel.begin_picture(work_bank);
     PanelLine line{};
     Packet packet{};
+    picture_sum_ = 0;
     for (unsigned n = 0; n < panel_lines; ++n) {
         lines.next(line);
+        picture_sum_ = add_line(picture_sum_, line);
         std::copy(line.begin(), line.end(), packet.begin() + 2);
         parts_.panel.send_line(packet, n, now);
     }

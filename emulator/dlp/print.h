@@ -87,6 +87,8 @@ class Print {
     std::uint32_t antialiasing() const { return file_ ? file_->antialiasing() : 1; }
     std::uint32_t estimate_s() const { return estimate_s_; }
     std::uint32_t bad_layers() const { return bad_layers_; }
+    /// The bank holds the picture sent last, line for line.
+    bool picture_arrived() const { return picture_sum_ == parts_.panel.fpga().sum(0); }
     /// Of the layer that is printed, or whose picture is shown.
     const LayerPlan& plan() const { return plan_; }
     /// In 32-bit floats, as the board reckons; n / N x 100.
@@ -169,6 +171,7 @@ class Print {
     bool cancelled_ = false;
     bool needs_picture_ = false;  ///< the layer's picture could not be loaded
     bool rise_told_ = false;
+    std::uint64_t picture_sum_ = 0;  ///< of the lines sent, see Fpga::sum()
     SimTime load_due_ = never;
     SimTime until_ = never;  ///< end of a countdown
     SimTime started_{0};

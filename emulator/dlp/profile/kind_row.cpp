@@ -15,6 +15,7 @@ void load(behaviour::ObjectReader& reader, behaviour::Findings& findings, machin
 
 }  // namespace
 
-extern constinit const behaviour::KindRow kind_row{own_kind, fields, actions, make_config, load};
+extern constinit const behaviour::KindRow kind_row{own_kind, fields, actions, make_config,
+                                                   load,     lists,  pictures};
 
 }  // namespace fauxboard::dlp
