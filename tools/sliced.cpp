@@ -111,7 +111,7 @@ void write_picture(const SlicedOptions& options, const SlicedFile& file, const F
     PictureRows rows = rows_of(options, file, source);
     std::vector<std::uint32_t> values(rows.width());
     const bool colour = !options.layer;
-    const PngPicture picture{rows.width(), rows.height(), colour, [&](std::span<unsigned char> out) {
+    const PngPicture picture{rows.width(), rows.height(), colour, false, [&](std::span<unsigned char> out) {
                                  const bool more = rows.next(values);
                                  std::size_t at = 0;
                                  for (const std::uint32_t value : values) {
