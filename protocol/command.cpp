@@ -196,4 +196,38 @@ std::optional<Command> parse_command(std::string_view body) {
     return parse_command(body, command) ? std::optional<Command>(command) : std::nullopt;
 }
 
+bool parse_host_command(std::string_view body, Command& command) {
+    if (body.empty()) return false;
+    std::size_t at = 1 + scan::blanks_at(body, 1);
+    std::uint32_t number = 0;
+    bool coded =
+        (body[0] == 'G' || body[0] == 'M' || body[0] == 'T') && at < body.size() && scan::is_digit(body[at]);
+    for (; coded && at < body.size() && scan::is_digit(body[at]); ++at) {
+        number = std::min(number * 10 + static_cast<std::uint32_t>(body[at] - '0'), 100'000U);
+    }
+    if (coded && at < body.size() && body[at] == '.') {
+        for (++at; at < body.size() && scan::is_digit(body[at]); ++at) {
+        }
+    }
+    coded = coded && number <= 65535;
+    at = coded ? at : std::min(body.find_first_of(" \t"), body.size());
+    command.letter = coded ? body[0] : '\0';
+    command.number = coded ? number : 0;
+    command.word = body.substr(0, at);
+    command.text = body.substr(at);
+    command.argument = scan::trim_right(command.text.substr(scan::blanks_at(command.text, 0)));
+    command.present = 0;
+    for (std::size_t i = 0; i < command.text.size();) {
+        const char name = command.text[i++];
+        if (!scan::is_capital(name)) continue;
+        const std::size_t from = i + scan::blanks_at(command.text, i);
+        const Reading value = read(command.text.substr(from));
+        const auto index = static_cast<std::size_t>(name - 'A');
+        command.present |= 1U << index;
+        command.numbers[index] = value.value;
+        i = value.length == 0 ? i : from + value.length;
+    }
+    return true;
+}
+
 }  // namespace fauxboard::protocol

@@ -58,6 +58,11 @@ std::optional<Command> parse_command(std::string_view body);
 /// nothing.
 bool parse_command(std::string_view body, Command& command);
 
+/// The same of a command as hosts send it and Marlin reads it: blanks may stand between letter and number
+/// ("G 1"), behind a dot more digits (passed over), a parameter needs no blank before it, and of one that
+/// comes twice the last counts. Only G, M and T are codes.
+bool parse_host_command(std::string_view body, Command& command);
+
 /// Reads a decimal number as number_of() does, from the first byte of `text`; what follows the number is left
 /// alone.
 double read_number(std::string_view text);

@@ -98,10 +98,12 @@ std::size_t plain_run(std::string_view bytes);
 ///
 /// CR or LF ends a line, empty lines are skipped (source: protocol document; the A30 screen's firmware does
 /// the same). NULs are counted and dropped: the A30 screen sends one after its power-up message. A line over
-/// max_line_bytes is dropped whole up to its end, and counted once. Memory is fixed; nothing a peer sends
-/// makes it grow.
+/// max_line_bytes is dropped whole up to its end, or given without what is too much, and counted once. Memory
+/// is fixed; nothing a peer sends makes it grow.
 class LineSplitter {
   public:
+    /// Whether a line that is too long is given all the same, as far as it fits.
+    void set_cutting(bool cutting) { cutting_ = cutting; }
     /// Calls on_line(std::string_view) once per complete line, in order. The view lives until on_line
     /// returns: it points into `bytes` where the line lay there whole, else into the splitter. on_line may
     /// call reset(), not feed().
@@ -153,7 +155,8 @@ class LineSplitter {
         if (piece.size() > max_line_bytes - length_) {
             ++too_long_;
             dropping_ = true;
-            return;
+            if (!cutting_) return;
+            piece = piece.substr(0, max_line_bytes - length_);
         }
         std::memcpy(partial_.data() + length_, piece.data(), piece.size());
         length_ += piece.size();
@@ -161,14 +164,15 @@ class LineSplitter {
 
     /// Ends the stored line; its length, 0 when it was dropped.
     std::size_t finish() {
-        const std::size_t length = dropping_ ? 0 : length_;
+        const std::size_t length = dropping_ && !cutting_ ? 0 : length_;
         reset();
         return length;
     }
 
     std::array<char, max_line_bytes> partial_{};
     std::size_t length_ = 0;
-    bool dropping_ = false;
+    bool dropping_ = false;  ///< the rest of the line
+    bool cutting_ = false;
     std::uint64_t too_long_ = 0;
     std::uint64_t nuls_ = 0;
 };

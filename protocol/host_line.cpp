@@ -1,99 +1,128 @@
 #include "protocol/host_line.h"
 
 #include <algorithm>
-#include <charconv>
 
 #include "protocol/framing.h"
 
 namespace fauxboard::protocol {
 namespace {
 
+std::string_view skip_blanks(std::string_view text) {
+    return text.substr(std::min(text.find_first_not_of(' '), text.size()));
+}
+
 std::string_view trim(std::string_view text) {
-    const auto from = text.find_first_not_of(" \t");
-    return from == std::string_view::npos ? std::string_view{}
-                                          : text.substr(from, text.find_last_not_of(" \t") - from + 1);
+    return skip_blanks(text).substr(0, skip_blanks(text).find_last_not_of(' ') + 1);
+}
+
+bool digit(char c) {
+    return c >= '0' && c <= '9';
 }
 
 bool all_digits(std::string_view text) {
-    return !text.empty() &&
-           std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+    return !text.empty() && std::all_of(text.begin(), text.end(), digit);
 }
 
-std::int64_t clamped_number(std::string_view digits, bool negative) {
+/// The whole number that `text` begins with, as strtol reads it, within 32 bits; 0 for none.
+std::int64_t whole(std::string_view text) {
     constexpr std::int64_t most = 2'147'483'647;
+    text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
+    const bool negative = text.starts_with('-');
+    text.remove_prefix(negative || text.starts_with('+') ? 1 : 0);
     std::int64_t value = 0;
-    for (const char c : digits) {
+    for (const char c : text) {
+        if (!digit(c)) {
+            break;
+        }
         value = std::min(value * 10 + (c - '0'), most);
     }
     return negative ? -value : value;
 }
 
-/// Takes "N12" or "N-1" off the start; false when there is none.
-bool take_number(std::string_view& text, HostLine& out) {
-    if (text.size() < 2 || (text[0] != 'N' && text[0] != 'n')) {
-        return false;
+/// What stands behind "N12" or "N-1"; the text itself where the N has no number right behind it.
+std::string_view behind_number(std::string_view text) {
+    const std::size_t sign = text.size() > 1 && (text[1] == '-' || text[1] == '+') ? 1 : 0;
+    std::size_t at = 1 + sign;
+    while (at < text.size() && digit(text[at])) {
+        ++at;
     }
-    std::string_view rest = text.substr(1);
-    const bool negative = rest[0] == '-';
-    rest.remove_prefix(negative ? 1 : 0);
-    const std::size_t digits = std::min(rest.find_first_not_of("0123456789"), rest.size());
-    if (digits == 0) {
-        return false;
-    }
-    out.number = clamped_number(rest.substr(0, digits), negative);
-    text = rest.substr(digits);
-    return true;
+    return at == 1 ? text : text.substr(at);
+}
+
+void read_number(std::string_view text, HostLine& out) {
+    constexpr std::size_t shortest = 4;  // the firmware looks for the second N from there on
+    out.sets_number = text.find("M110") != std::string_view::npos;
+    const std::size_t second =
+        out.sets_number && text.size() > shortest ? text.find('N', shortest) : std::string_view::npos;
+    out.number = whole(text.substr(second == std::string_view::npos ? 1 : second + 1));
 }
 
 }  // namespace
 
-HostLine unframe_host_line(std::string_view line) {
-    HostLine out;
-    line = line.substr(0, line.find(';'));
-    std::string_view body = trim(line);
-    out.numbered = take_number(body, out);
-    const std::size_t star = body.rfind('*');
-    if (star != std::string_view::npos) {
-        const std::string_view behind = trim(body.substr(star + 1));
-        if (out.numbered || all_digits(behind)) {
-            out.has_checksum = true;
-            unsigned sum = 256;
-            if (all_digits(behind)) {
-                std::from_chars(behind.data(), behind.data() + behind.size(), sum);
-            }
-            const std::string_view summed = line.substr(0, line.rfind('*'));
-            out.checksum_right = sum == xor_checksum(summed);
-            body = body.substr(0, star);
+std::string_view without_remark(std::string_view line) {
+    return line.substr(0, line.find(';'));
+}
+
+std::string_view read_host_line(std::string_view bytes, std::array<char, 512>& room, std::size_t most_chars) {
+    bytes = skip_blanks(bytes);
+    const std::size_t special = bytes.find_first_of(";\\\b");
+    if (special == std::string_view::npos || bytes[special] == ';') {
+        return bytes.substr(0, std::min(special, most_chars));
+    }
+    most_chars = std::min(most_chars, room.size());
+    std::size_t size = 0;
+    for (std::size_t i = 0; i < bytes.size() && bytes[i] != ';'; ++i) {
+        if (bytes[i] == '\b') {
+            size -= size > 0 ? 1 : 0;
+            continue;
         }
+        if (bytes[i] == '\\' && ++i == bytes.size()) {
+            break;
+        }
+        if (size < most_chars && (size > 0 || bytes[i] != ' ')) {
+            room[size++] = bytes[i];
+        }
+    }
+    return {room.data(), size};
+}
+
+HostLine unframe_host_line(std::string_view line, const HostLineRules& rules) {
+    HostLine out;
+    line = skip_blanks(line);
+    std::string_view body = line;
+    out.numbered = line.starts_with('N');
+    if (out.numbered) {
+        read_number(line, out);
+        body = skip_blanks(behind_number(line));
+    }
+    const std::size_t star = line.rfind('*');
+    if (star != std::string_view::npos) {
+        const std::string_view behind = line.substr(star + 1);
+        out.has_checksum = out.numbered || all_digits(trim(behind));
+        out.checksum_right = out.has_checksum && whole(behind) == xor_checksum(line.substr(0, star));
+    }
+    if (rules.first_star_ends) {
+        body = body.substr(0, body.find('*'));
+    } else if (out.has_checksum) {
+        body = body.substr(0, body.rfind('*'));
     }
     out.body = trim(body);
     return out;
 }
 
-bool sets_line_number(const HostLine& line) {
-    return line.body.starts_with("M110") && (line.body.size() == 4 || line.body[4] == ' ');
-}
-
-std::optional<std::int64_t> number_set(const HostLine& line) {
-    if (!sets_line_number(line)) {
-        return std::nullopt;
+HostLineFault judge_host_line(const HostLine& line, std::int64_t last, const HostLineRules& rules) {
+    if (!line.numbered) {
+        const bool wants_number = line.has_checksum && rules.judges_unnumbered;
+        return wants_number ? HostLineFault::no_number : HostLineFault::none;
     }
-    std::string_view text = trim(line.body.substr(4));
-    HostLine parsed;
-    return take_number(text, parsed) ? std::optional(parsed.number) : std::nullopt;
-}
-
-HostLineFault judge_host_line(const HostLine& line, std::int64_t last) {
-    if (line.numbered) {
-        if (line.number != last + 1 && !sets_line_number(line)) {
-            return HostLineFault::wrong_number;
-        }
-        if (!line.has_checksum) {
-            return HostLineFault::no_checksum;
-        }
-        return line.checksum_right ? HostLineFault::none : HostLineFault::wrong_checksum;
+    if (line.number != last + 1 && !line.sets_number) {
+        const bool repeated = line.number == last || line.number == last - 1;
+        return repeated && rules.drops_repeated ? HostLineFault::repeated : HostLineFault::wrong_number;
     }
-    return line.has_checksum ? HostLineFault::no_number : HostLineFault::none;
+    if (!line.has_checksum) {
+        return HostLineFault::no_checksum;
+    }
+    return line.checksum_right ? HostLineFault::none : HostLineFault::wrong_checksum;
 }
 
 }  // namespace fauxboard::protocol

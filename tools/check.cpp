@@ -1,11 +1,14 @@
-// `fauxboard check`: are these profiles, screens and scenarios right?
+// `fauxboard check`: are these profiles, screens, scenarios and settings files right?
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
+#include "tools/check_acfg.h"
 #include "tools/check_files.h"
 #include "tools/report.h"
 
@@ -31,9 +34,12 @@ Json json_of(const CheckedFile& checked) {
 }
 
 std::string text_of(const CheckedFile& checked) {
-    if (!checked.readable) {
-        return fmt::format("{}: no such file, or it cannot be read, or it is larger than 4 MiB\n",
-                           checked.file);
+    if (!checked.readable && checked.problems.empty()) {
+        const bool path = checked.file.find('/') != std::string::npos || checked.file.ends_with(".json");
+        return path ? checked.file + ": there is no such file\n"
+                    : fmt::format("{}: there is no file, profile, screen or scenario of this name{}\n",
+                                  checked.file,
+                                  checked.nearest.empty() ? "" : "; did you mean " + checked.nearest + "?");
     }
     std::string text;
     for (const behaviour::Problem& problem : checked.problems) {
@@ -42,27 +48,51 @@ std::string text_of(const CheckedFile& checked) {
     return text.empty() ? checked.file + ": ok\n" : text;
 }
 
+/// A file that was checked, as it is to be told.
+struct Told {
+    Json json;
+    std::string text;
+    ExitCode exit = ExitCode::ok;
+};
+
+Told tell(const std::string& file) {
+    const CheckedFile checked = check_file(file);
+    const ExitCode exit = !checked.readable          ? ExitCode::bad_input
+                          : checked.problems.empty() ? ExitCode::ok
+                                                     : ExitCode::failed;
+    if (!checked.remark.empty()) {
+        complain("check", exit, checked.file + ": " + checked.remark);
+    }
+    return {json_of(checked), text_of(checked), exit};
+}
+
+Told tell_acfg(const std::string& file) {
+    if (const auto checked = check_acfg(file)) {
+        const bool ok = checked->report.result == dlp::AcfgResult::ok;
+        return {acfg_json(*checked), acfg_text(*checked), ok ? ExitCode::ok : ExitCode::failed};
+    }
+    return {{{"file", file}, {"result", "not_opened"}, {"line", nullptr}, {"saved", false}},
+            file + ": no such file, or it cannot be read\n",
+            ExitCode::bad_input};
+}
+
 ExitCode check(const std::vector<std::string>& files, bool as_json) {
     ExitCode exit = ExitCode::ok;
     Json list = Json::array();
     for (const std::string& file : files) {
-        const CheckedFile checked = check_file(file);
-        if (!checked.readable) {
-            exit = ExitCode::bad_input;
-        } else if (!checked.problems.empty() && exit == ExitCode::ok) {
-            exit = ExitCode::failed;
-        }
+        Told told = is_acfg(file) ? tell_acfg(file) : tell(file);
+        exit = std::max(exit, told.exit);
         if (as_json) {
-            list.push_back(json_of(checked));
+            list.push_back(std::move(told.json));
         } else {
-            print(text_of(checked));
-        }
-        if (!checked.remark.empty()) {
-            complain("check", exit, checked.file + ": " + checked.remark);
+            print(told.text);
         }
     }
     if (as_json) {
-        print(list.dump(2, ' ', true, nlohmann::json::error_handler_t::replace) + "\n");
+        // A settings file alone is told as such, not as a list of one.
+        const bool alone = files.size() == 1 && is_acfg(files.front());
+        print((alone ? list.front() : list).dump(2, ' ', true, nlohmann::json::error_handler_t::replace) +
+              "\n");
     }
     return exit;
 }
@@ -70,12 +100,14 @@ ExitCode check(const std::vector<std::string>& files, bool as_json) {
 }  // namespace
 
 void add_check(CLI::App& app, ExitCode& exit) {
-    CLI::App* command =
-        app.add_subcommand("check", "Check profiles, screens and scenarios: their meaning, then their form");
+    CLI::App* command = app.add_subcommand(
+        "check",
+        "Check profiles, screens and scenarios: their meaning, then their form; and settings "
+        "files of the MKS DLP board (.acfg)");
     const auto files = std::make_shared<std::vector<std::string>>();
     const auto as_json = std::make_shared<bool>(false);
     command->add_option("file", *files, "Files, or names of profiles, screens and scenarios")->required();
-    command->add_flag("--json", *as_json, "As a JSON array");
+    command->add_flag("--json", *as_json, "As a JSON array; a single .acfg as an object");
     command->callback([files, as_json, &exit] { exit = check(*files, *as_json); });
 }
 

@@ -1,11 +1,13 @@
 #include "tools/check_files.h"
 
 #include <algorithm>
-#include <fstream>
+#include <array>
 #include <iterator>
 
+#include "emulator/behaviour/nearest.h"
 #include "emulator/behaviour/profile.h"
 #include "emulator/host/profile_files.h"
+#include "emulator/host/screen_files.h"
 #include "emulator/host/script_files.h"
 #include "emulator/screen/screen_profile.h"
 
@@ -16,51 +18,40 @@ namespace fs = std::filesystem;
 using behaviour::Problem;
 using behaviour::SourceText;
 
-constexpr std::uintmax_t max_bytes = 4U * 1024 * 1024;
-
-/// A kind of file: what its "$schema" names, and who knows its meaning.
+/// A kind of file: what its "$schema" names, keys that no other kind has, and who knows its meaning.
 struct Kind {
     std::string_view schema;
+    std::array<std::string_view, 4> marks;
     std::string (*load)(const SourceText& source);  ///< gives a remark; throws behaviour::ProfileError
 };
 constexpr Kind kinds[] = {
     {"profile.schema.json",
+     {"protocol", "machine", "requests", "boot"},
      [](const SourceText& source) {
          return overrun_remark(*behaviour::load_profile(source, host::profile_finder()));
      }},
     {"screen.schema.json",
+     {"pages", "everywhere", "values", "tour"},
      [](const SourceText& source) {
-         screen::load_screen(source, host::profile_finder());
+         screen::load_screen(source, host::screen_finder());
          return std::string();
      }},
     {"scenario.schema.json",
+     {"steps", "parameters", "limits", "screen"},
      [](const SourceText& source) {
          host::check_script(source);
          return std::string();
      }},
 };
 
-std::optional<SourceText> read(const fs::path& file) {
-    std::error_code error;
-    if (!fs::is_regular_file(file, error) || fs::file_size(file, error) > max_bytes) {
-        return std::nullopt;
-    }
-    std::ifstream in(file, std::ios::binary);
-    if (!in) {
-        return std::nullopt;
-    }
-    return SourceText{file.string(),
-                      std::string(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>())};
-}
-
 /// The file itself; else a profile, a screen or a scenario of that name.
 std::optional<SourceText> find(const std::string& file) {
-    auto source = read(file);
+    auto source = host::read_source(file);
     if (!source && file.find('/') == std::string::npos) {
         source = host::profile_finder()(file, {});
         for (const fs::path& folder : host::profile_folders()) {
             for (const char* kind : {"screens", "scenarios"}) {
-                if (!source) source = read(folder / kind / (file + ".json"));
+                if (!source) source = host::read_source(folder / kind / (file + ".json"));
             }
         }
     }
@@ -69,7 +60,7 @@ std::optional<SourceText> find(const std::string& file) {
 
 std::optional<nlohmann::json> load_schema(std::string_view schema_file) {
     for (const fs::path& folder : host::profile_folders()) {
-        if (const auto source = read(folder / "schemas" / schema_file)) {
+        if (const auto source = host::read_source(folder / "schemas" / schema_file)) {
             auto schema = nlohmann::json::parse(source->text, nullptr, false);
             if (schema.is_object()) {
                 return schema;
@@ -79,11 +70,16 @@ std::optional<nlohmann::json> load_schema(std::string_view schema_file) {
     return std::nullopt;
 }
 
-/// What kind of file it is: its "$schema" says so; without one it is taken for a profile. Null: no known one.
+/// What kind of file it is: its "$schema" says so, else the first key that only one kind has; what has
+/// neither is taken for a profile. Null: no known one.
 const Kind* kind_of(const behaviour::Document& document) {
     const auto schema = document.root.find("$schema");
     if (schema == document.root.end()) {
-        return &kinds[0];
+        const auto* const hit = std::find_if(std::begin(kinds), std::end(kinds), [&](const Kind& kind) {
+            return std::any_of(kind.marks.begin(), kind.marks.end(),
+                               [&](std::string_view mark) { return document.root.contains(mark); });
+        });
+        return hit == std::end(kinds) ? &kinds[0] : hit;
     }
     const std::string name =
         schema->is_string() ? fs::path(schema->get_ref<const std::string&>()).filename().string() : "";
@@ -126,14 +122,45 @@ void check_form(const behaviour::Document& document, const SourceText& source, c
     }
 }
 
+/// The profile, screen or scenario whose name is most like this one, with its kind; empty when `file` is a
+/// path.
+std::string nearest_name(const std::string& file) {
+    if (file.find('/') != std::string::npos || file.ends_with(".json")) {
+        return {};
+    }
+    std::vector<std::pair<std::string, std::string>> known;  // name, kind
+    const auto add = [&known](const char* kind, const std::vector<host::ProfileEntry>& entries) {
+        for (const host::ProfileEntry& entry : entries) {
+            known.emplace_back(entry.name, kind);
+        }
+    };
+    add("profile", host::list_profiles());
+    add("screen", host::list_screens());
+    add("scenario", host::list_scripts());
+    std::vector<std::string_view> names;
+    for (const auto& [name, kind] : known) {
+        names.emplace_back(name);
+    }
+    const std::string_view hit = behaviour::nearest(file, names);
+    const auto row =
+        std::find_if(known.begin(), known.end(), [&](const auto& one) { return one.first == hit; });
+    return row == known.end() ? std::string() : "the " + row->second + " " + row->first;
+}
+
 }  // namespace
 
 CheckedFile check_file(const std::string& file) {
     CheckedFile out;
     out.file = file;
-    const auto source = find(file);
+    std::optional<SourceText> source;
+    try {
+        source = find(file);
+    } catch (const behaviour::ProfileError& error) {
+        out.problems = error.problems();  // there, and it cannot be read
+    }
     if (!source) {
         out.readable = false;
+        out.nearest = nearest_name(file);
         return out;
     }
     try {

@@ -27,6 +27,7 @@ std::vector<SchemaError> check_schema(const nlohmann::json& schema, const nlohma
 struct CheckedFile {
     std::string file;
     bool readable = true;
+    std::string nearest;  ///< for a name that is not known: what may have been meant, with its kind
     std::vector<behaviour::Problem> problems;
     std::string remark;  ///< what could not be checked, and why, or what is worth knowing; may be empty
 };

@@ -19,6 +19,7 @@ enum class ExitCode : int {
 
 /// Each subcommand lives in one file and adds itself. Its callback leaves its result in `exit`.
 void add_run(CLI::App& app, ExitCode& exit);
+void add_fleet(CLI::App& app, ExitCode& exit);
 void add_send(CLI::App& app, ExitCode& exit);
 void add_replay(CLI::App& app, ExitCode& exit);
 void add_screen(CLI::App& app, ExitCode& exit);
@@ -30,5 +31,10 @@ void add_describe(CLI::App& app, ExitCode& exit);
 void add_sliced(CLI::App& app, ExitCode& exit);
 void add_ports(CLI::App& app, ExitCode& exit);
 void add_profiles(CLI::App& app, ExitCode& exit);
+/// `manual` and `completion`.
+void add_manual(CLI::App& app, ExitCode& exit);
+/// `new`: a small profile, screen or scenario to start from.
+void add_new(CLI::App& app, ExitCode& exit);
+void add_soak(CLI::App& app, ExitCode& exit);
 
 }  // namespace fauxboard::tools

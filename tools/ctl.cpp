@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <charconv>
+#include <fstream>
 #include <memory>
+#include <optional>
 
 #include "emulator/behaviour/fields.h"
+#include "emulator/control/base64.h"
 #include "emulator/host/time_text.h"
 #include "emulator/link/link.h"
 #include "tools/control_client.h"
@@ -26,6 +30,7 @@ struct Ctl {
     std::uint64_t most_events = 0;    ///< watch: 0 is no bound
     bool raw = false;
 
+    std::string picture;  ///< screenshot: where to
     std::vector<std::string> words;
     std::string action;
     std::string arguments;
@@ -88,11 +93,29 @@ ExitCode ask(const Ctl& ctl, ControlClient& client, const Json& request, Json& a
     return answer.value("ok", false) ? ExitCode::ok : ExitCode::failed;
 }
 
+ExitCode keep_picture(const Ctl& ctl, const Json& answer) {
+    const auto bytes = control::from_base64(answer.value("png", ""));
+    std::ofstream out(ctl.picture, std::ios::binary);
+    out << bytes.value_or("");
+    out.flush();
+    return bytes && out
+               ? ExitCode::ok
+               : complain("ctl", ExitCode::failed, "Cannot write the picture to " + ctl.picture + ".");
+}
+
 ExitCode one_request(const Ctl& ctl, ControlClient& client) {
     Json answer;
     std::string line;
     const ExitCode code = ask(ctl, client, ctl.request, answer, line);
-    if (answer.is_object() && ctl.json) {
+    if (code == ExitCode::ok && !ctl.picture.empty()) {
+        return keep_picture(ctl, answer);
+    }
+    if (code == ExitCode::ok && ctl.json && ctl.request.value("op", "") == "page") {
+        for (const char* around : {"id", "ok", "notices"}) {
+            answer.erase(around);
+        }
+        print(answer.dump() + "\n");
+    } else if (answer.is_object() && ctl.json) {
         print(line + "\n");
     } else if (code == ExitCode::ok) {
         print(answer_text(answer));
@@ -131,8 +154,9 @@ ExitCode watch(const Ctl& ctl, ControlClient& client) {
 ExitCode ctl_main(const Ctl& ctl) {
     try {
         // What is watched may be silent for hours, and time that jumps takes as long as it takes.
-        const bool patient =
-            ctl.raw || !ctl.subscriptions.empty() || ctl.request.value("op", "") == "advance";
+        const bool patient = ctl.raw || !ctl.subscriptions.empty() ||
+                             ctl.request.value("op", "") == "advance" ||
+                             ctl.request.value("op", "") == "touch";
         ControlClient client(ctl.path, patient ? -1 : ctl.timeout_ms);
         if (ctl.raw) {
             client.copy(STDIN_FILENO, STDOUT_FILENO);
@@ -178,6 +202,35 @@ Json action_of(const Ctl& ctl) {
                                              "'{\"heater\": \"nozzle\", \"c\": 200}'");
     }
     return Json{{ctl.action, std::move(arguments)}};
+}
+
+std::optional<int> whole_number(const std::string& text) {
+    int out = 0;
+    const auto read = std::from_chars(text.data(), text.data() + text.size(), out);
+    return read.ec == std::errc{} && read.ptr == text.data() + text.size() ? std::optional(out)
+                                                                           : std::nullopt;
+}
+
+/// X Y [MS], or NAME [MS]; a name may hold blanks, in one word or in several.
+Json touch_of(std::vector<std::string> words) {
+    Json out{{"op", "touch"}};
+    const auto duration = [&] {
+        if (const auto ms = words.size() > 1 ? whole_number(words.back()) : std::nullopt) {
+            out["for"] = *ms / 1000.0;
+            words.pop_back();
+        }
+    };
+    const bool pixel =
+        words.size() > 1 && words.size() < 4 && whole_number(words[0]) && whole_number(words[1]);
+    if (pixel) {
+        out["x"] = *whole_number(words[0]);
+        out["y"] = *whole_number(words[1]);
+        if (words.size() == 3) duration();
+    } else {
+        duration();
+        out["control"] = fmt::format("{}", fmt::join(words, " "));
+    }
+    return out;
 }
 
 /// A fault in JSON or as compact text.
@@ -252,7 +305,7 @@ void add_doing(CLI::App& to, Ctl& ctl) {
         [&ctl] {
             ctl.request = Json{{"op", "advance"}, {"by", joined(ctl.words)}};
         })
-        ->add_option("TIME", ctl.words, "500ms, 10s, 5min, 24h")
+        ->add_option("TIME", ctl.words, "500ms, 10s, 5min, 24h, 30d")
         ->required()
         ->expected(1);
 }
@@ -283,6 +336,22 @@ void add_faults(CLI::App& to, Ctl& ctl) {
     }
     static_cast<void>(list);
     static_cast<void>(clear);
+}
+
+/// What a finger does, and what the eye sees.
+void add_display(CLI::App& to, Ctl& ctl) {
+    CLI::App* touch = add(to, "touch", "Puts a finger on the board's screen; returns when it is off again",
+                          [&ctl] { ctl.request = touch_of(ctl.words); });
+    touch
+        ->add_option("X Y [MS]|NAME [MS]", ctl.words,
+                     "A pixel, or a control's name as `page` tells it; for how long (120 ms)")
+        ->required();
+    CLI::App* page = add(to, "page", "What the board's screen shows", [&ctl] { ctl.request["op"] = "page"; });
+    page->add_flag("--json", ctl.json, "As one JSON object");
+    add(to, "screenshot", "Writes what the board's screen shows to a picture",
+        [&ctl] { ctl.request["op"] = "screenshot"; })
+        ->add_option("FILE", ctl.picture, "FILE.png")
+        ->required();
 }
 
 void add_watching(CLI::App& to, Ctl& ctl) {
@@ -336,6 +405,7 @@ void add_ctl(CLI::App& app, ExitCode& exit) {
     add_values(*command, *ctl);
     add_doing(*command, *ctl);
     add_faults(*command, *ctl);
+    add_display(*command, *ctl);
     add_watching(*command, *ctl);
     add_rest(*command, *ctl);
     command->footer(

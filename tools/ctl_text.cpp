@@ -65,9 +65,36 @@ std::string members_text(const Json& object, const std::string& prefix = "") {
     return out;
 }
 
+/// A page of a screen: title, what can be read, the box over it, what can be touched and where.
+std::string page_text(const Json& page) {
+    std::string out = fmt::format("{}  [{}]\n", page.value("title", ""), page.value("page", ""));
+    for (const Json& text : page.at("texts")) {
+        out += "  " + value_text(text) + "\n";
+    }
+    if (const Json& box = page.at("box"); box.is_object()) {
+        out += fmt::format("box  {}\n", box.value("caption", ""));
+        for (std::string text = box.value("text", ""); !text.empty();) {
+            const std::size_t end = std::min(text.find('\n'), text.size());
+            out += "  " + text.substr(0, end) + "\n";
+            text.erase(0, end + 1);
+        }
+    }
+    for (const Json& control : page.at("controls")) {
+        out +=
+            fmt::format("{:>4},{:<3} {:>3}x{:<3} {}{}{}\n", control.value("x", 0), control.value("y", 0),
+                        control.value("w", 0), control.value("h", 0), control.value("name", ""),
+                        control.value("label", "").empty() ? "" : "  \"" + control.value("label", "") + "\"",
+                        control.value("enabled", true) ? "" : "  (dead)");
+    }
+    return out;
+}
+
 }  // namespace
 
 std::string answer_text(const Json& answer) {
+    if (answer.contains("controls") && answer.contains("box")) {
+        return page_text(answer);
+    }
     if (const auto faults = answer.find("faults"); faults != answer.end() && faults->is_array()) {
         std::string out = faults->empty() ? "no faults\n" : "";
         for (const Json& fault : *faults) {

@@ -4,14 +4,15 @@
 
 #include <CLI/App.hpp>
 #include <CLI/Option.hpp>
+#include <algorithm>
 #include <cerrno>
-#include <cstdio>
 #include <deque>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -21,6 +22,7 @@
 #include "emulator/record/screen_judge.h"
 #include "emulator/record/transcript.h"
 #include "emulator/record/transcript_words.h"
+#include "tools/batch.h"
 #include "tools/report.h"
 
 namespace fauxboard::tools {
@@ -30,6 +32,8 @@ constexpr const char* legend =
     R"(Forms, told apart by their content, line by line:
   {"t": 16.451778, "from": "screen", "line": "..."}   what run, tap and replay record
   15:15:12.123456789 - line                           one direction a file; several are merged by time
+  2024-01-02 10:00:00,100 - Send: line                OctoPrint's serial.log; without times, its terminal's
+                                                      Send: and Recv:, printcore's SENT: and RECV:
   anything else                                       the line itself
 Marks at the start of a line: ! its checksum is wrong, ? its code or a field is unknown, x it cannot be read,
 * anything else: with --screen, what that screen would have ignored, missed, cut, dropped, misread or crashed on.
@@ -54,6 +58,11 @@ class Inputs {
         }
     }
     std::vector<record::TranscriptReader> take() { return std::move(readers_); }
+    /// Whether one of them failed before its end.
+    bool failed() const {
+        return std::any_of(streams_.begin(), streams_.end(),
+                           [](const std::ifstream& stream) { return stream.bad(); });
+    }
 
   private:
     void add(const std::string& file) {
@@ -61,14 +70,18 @@ class Inputs {
             readers_.emplace_back(std::cin, "stdin");
             return;
         }
-        std::error_code error;
-        const bool folder = std::filesystem::is_directory(file, error);
         errno = 0;
+        std::error_code error;
+        const auto kind = std::filesystem::status(file, error).type();
+        if (kind != std::filesystem::file_type::regular && kind != std::filesystem::file_type::fifo) {
+            throw link::HostError(fmt::format(
+                "{} cannot be read: {}.", file,
+                error ? error.message() : "it is no file and no pipe; a stream comes by standard input"));
+        }
         std::ifstream& in = streams_.emplace_back(file, std::ios::binary);
-        if (!in || folder) {
+        if (!in) {
             throw link::HostError(
-                fmt::format("{} cannot be read: {}.", file,
-                            folder ? "it is a folder" : std::system_category().message(errno)));
+                fmt::format("{} cannot be read: {}.", file, std::system_category().message(errno)));
         }
         readers_.emplace_back(in, file);
     }
@@ -87,18 +100,26 @@ ExitCode decode(const DecodeOptions& options) {
             judges.push_back(record::screen_judge(host::load_screen_by_name(options.screen)));
         }
         record::Transcripts transcripts(inputs.take());
+        std::size_t lines = 0;
+        bool sense = false;
+        Batch batch;
         while (auto entry = transcripts.next()) {
             const record::JudgedLine line = record::judge(std::move(*entry), judges);
+            ++lines;
+            sense = sense || record::makes_sense(line);
             const std::string text = options.json ? record::json_line(line) : record::text_line(line);
-            std::fwrite(text.data(), 1, text.size(), stdout);
-            if (live && std::cin.rdbuf()->in_avail() <= 0) {
-                std::fflush(stdout);
-            }
-            if (std::ferror(stdout) != 0) {
-                break;  // nobody reads any more
+            if (!batch.add(text, live && std::cin.rdbuf()->in_avail() <= 0)) {
+                return ExitCode::ok;
             }
         }
-        std::fflush(stdout);
+        batch.flush();
+        if (inputs.failed()) {
+            throw link::HostError("The input could not be read to its end.");
+        }
+        if (lines != 0 && !sense) {
+            return complain("decode", ExitCode::bad_input,
+                            "nothing here is of a form that decode knows; its --help names those.");
+        }
         return ExitCode::ok;
     } catch (const behaviour::ProfileError& error) {
         return complain("decode", ExitCode::bad_input, error.what());

@@ -4,17 +4,23 @@
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
-#include <cstdio>
 #include <exception>
+#include <filesystem>
+#include <memory>
+#include <new>
+#include <sstream>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "emulator/behaviour/nearest.h"
+#include "emulator/host/profile_files.h"
+#include "tools/command_tree.h"
 #include "tools/commands.h"
+#include "tools/help_formatter.h"
+#include "tools/report.h"
+#include "tools/version.h"
 
 namespace fauxboard::tools {
 namespace {
@@ -57,33 +63,22 @@ void fill_standard_descriptors() {
     }
 }
 
-/// CLI11 only says that a subcommand is required.
-bool is_unknown_command(const CLI::App& app, int argc, char** argv) {
-    if (argc < 2 || argv[1][0] == '-') {
-        return false;
+/// A folder that is not there helps nobody, and whoever named it should know.
+void warn_of_profile_folders() {
+    for (const std::filesystem::path& folder : host::missing_profile_folders()) {
+        complain({}, ExitCode::ok,
+                 "FAUXBOARD_PROFILES names " + folder.string() + ", which is no folder; it is passed over");
     }
-    std::vector<std::string_view> names;
-    std::string known;
-    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
-        if (command->get_name() == argv[1]) {
-            return false;
-        }
-        names.emplace_back(command->get_name());
-        known += ' ' + command->get_name();
-    }
-    const std::string nearest(behaviour::nearest(argv[1], names));
-    const std::string hint = nearest.empty() ? "" : "; did you mean '" + nearest + "'?";
-    std::fprintf(stderr, "fauxboard: there is no command '%s'; known:%s%s\n", argv[1], known.c_str(),
-                 hint.c_str());
-    return true;
 }
 
 int run_app(int argc, char** argv) {
     CLI::App app{what_it_is, "fauxboard"};
     ExitCode exit = ExitCode::ok;
-    app.set_version_flag("--version", "fauxboard " FAUXBOARD_VERSION);
+    app.formatter(std::make_shared<HelpFormatter>());  // first, since the subcommands inherit it
+    app.set_version_flag("--version", version_text);
     app.require_subcommand(1);
     add_run(app, exit);
+    add_fleet(app, exit);
     add_send(app, exit);
     add_replay(app, exit);
     add_screen(app, exit);
@@ -95,8 +90,14 @@ int run_app(int argc, char** argv) {
     add_sliced(app, exit);
     add_ports(app, exit);
     add_profiles(app, exit);
+    add_new(app, exit);
+    add_manual(app, exit);
+    add_soak(app, exit);
     app.footer(examples);  // last, since the subcommands made before inherit none of it
-    if (is_unknown_command(app, argc, argv)) {
+    warn_of_profile_folders();
+    const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+    if (const std::string wrong = unknown_word(app, words); !wrong.empty()) {
+        complain({}, ExitCode::usage, wrong);
         return static_cast<int>(ExitCode::usage);
     }
     try {
@@ -104,24 +105,42 @@ int run_app(int argc, char** argv) {
     } catch (const CLI::Success& success) {  // --help, --version
         return app.exit(success) == 0 ? static_cast<int>(ExitCode::ok) : static_cast<int>(ExitCode::internal);
     } catch (const CLI::ParseError& error) {
-        app.exit(error);
+        std::ostringstream out;
+        app.exit(error, out, out);  // may hold what was given: it goes the way of all text
+        print_error(out.str());
         return static_cast<int>(ExitCode::usage);
     }
     return static_cast<int>(exit);
+}
+
+/// What a descriptor or a disk that breaks can do to a program is an error that its caller handles, not its
+/// end.
+void ignore_deadly_signals() {
+    std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);  // a file as large as RLIMIT_FSIZE allows is then like a full disk
+}
+
+/// The last word on an error that nobody handled. Out of memory is one of the system's.
+ExitCode last_word(const std::exception& error) {
+    if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) {
+        return complain("", ExitCode::bad_input, "There is not enough memory for this.");
+    }
+    return complain("", ExitCode::internal, std::string("a bug, please report it: ") + error.what());
 }
 
 }  // namespace
 }  // namespace fauxboard::tools
 
 int main(int argc, char** argv) {
-    std::signal(SIGPIPE, SIG_IGN);
     try {
+        fauxboard::tools::ignore_deadly_signals();
         fauxboard::tools::fill_standard_descriptors();
         return fauxboard::tools::run_app(argc, argv);
     } catch (const std::exception& error) {
-        std::fprintf(stderr, "fauxboard: a bug, please report it: %s\n", error.what());
+        return static_cast<int>(fauxboard::tools::last_word(error));
     } catch (...) {
-        std::fputs("fauxboard: a bug, please report it: an exception of unknown kind\n", stderr);
+        fauxboard::tools::complain("", fauxboard::tools::ExitCode::internal,
+                                   "a bug, please report it: an exception of unknown kind");
     }
     return static_cast<int>(fauxboard::tools::ExitCode::internal);
 }

@@ -3,14 +3,22 @@
 // Options that several commands have, declared once: what they take and what is said of a wrong value.
 
 #include <CLI/App.hpp>
+#include <optional>
 #include <string>
 
+#include "emulator/host/time_text.h"
 #include "emulator/machine/sim_time.h"
 
 namespace fauxboard::tools {
 
 /// --duration: 500ms, 10s, 5min, 24h or seconds.
 void add_duration(CLI::App& command, machine::SimTime& duration, const std::string& help);
+
+/// --speed: a factor, or "max" where `may_jump`.
+void add_speed(CLI::App& command, host::Speed& speed, bool may_jump);
+
+/// --web [HOST:PORT[/TOKEN]].
+void add_web(CLI::App& command, std::optional<std::string>& web);
 
 /// --baud: 50 to 4 million bits per second.
 CLI::Option* add_baud(CLI::App& command, unsigned& baud, const std::string& help);

@@ -41,7 +41,11 @@ bool begin(const Png& png, std::FILE* file, const PngPicture& picture) {
         return false;
     }
     png_init_io(png.out, file);
-    png_set_IHDR(png.out, png.info, picture.width, picture.height, 8,
+    if (picture.bits) {  // many of them are written while a print waits
+        png_set_compression_level(png.out, 1);
+        png_set_filter(png.out, 0, PNG_FILTER_NONE);
+    }
+    png_set_IHDR(png.out, png.info, picture.width, picture.height, picture.bits ? 1 : 8,
                  picture.colour ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_write_info(png.out, png.info);
@@ -85,7 +89,8 @@ bool write_png(const std::string& path, const PngPicture& picture) {
     if (png.info == nullptr) {
         throw std::bad_alloc();
     }
-    std::vector<unsigned char> row(std::size_t{picture.width} * (picture.colour ? 3 : 1));
+    const std::size_t width = picture.width;
+    std::vector<unsigned char> row(picture.bits ? (width + 7) / 8 : width * (picture.colour ? 3 : 1));
     if (!begin(png, file.get(), picture)) {
         cannot_write(path);
     }

@@ -12,6 +12,7 @@ struct PngPicture {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
     bool colour = false;  ///< three bytes a pixel (red, green, blue), else one of grey
+    bool bits = false;    ///< eight pixels a byte, the highest bit first: dark or light
     /// Fills the next row; false ends the picture there.
     std::function<bool(std::span<unsigned char> row)> next_row;
 };

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <optional>
 
@@ -11,6 +13,8 @@
 #include "emulator/host/profile_files.h"
 #include "emulator/link/host_error.h"
 #include "emulator/record/compare.h"
+#include "emulator/record/plot.h"
+#include "tools/batch.h"
 #include "tools/report.h"
 
 namespace fauxboard::tools {
@@ -21,42 +25,100 @@ struct ReplayArguments {
     std::string capture;
     std::string sd;
     record::ReplayOptions options;
+    std::string plot;  ///< file; empty: none
     bool compare = false;
     bool json = false;
 };
 
-/// What the board would have told a person, on stderr so that stdout stays a recording.
-void print_notices(const record::ReplayResult& result) {
-    for (const record::ReplayNotice& notice : result.notices) {
-        if (notice.level >= behaviour::Level::warning) {
-            fmt::print(stderr, "{:.3f} s: {}\n", machine::to_seconds(notice.t), notice.text);
+/// More than this much is not held at once, as a comparison must.
+constexpr std::uintmax_t most_compared_bytes = 256UL * 1024 * 1024;
+
+std::ifstream open_recording(const std::string& file) {
+    std::error_code error;
+    std::ifstream in(file, std::ios::binary);
+    if (!in || !std::filesystem::is_regular_file(file, error)) {
+        throw record::RecordingError(file, 0, "no such file, or it cannot be read");
+    }
+    return in;
+}
+
+/// When the recorded board first spoke.
+std::optional<machine::SimTime> first_board_line(const std::string& file) {
+    std::ifstream in = open_recording(file);
+    record::OrderedRecording recording(record::RecordingReader(in, file));
+    while (const auto line = recording.next()) {
+        if (line->from == record::RecordedLine::From::board) {
+            return line->t;
         }
+    }
+    return std::nullopt;
+}
+
+/// What the board would have told a person, on stderr so that stdout stays a recording.
+void print_notice(const record::ReplayNotice& notice) {
+    if (notice.level >= behaviour::Level::warning) {
+        print_error(fmt::format("{:.3f} s: {}\n", machine::to_seconds(notice.t), notice.text));
     }
 }
 
-ExitCode replay(const ReplayArguments& arguments) {
-    const auto profile = host::load_profile_by_name(arguments.profile);
-    const auto recording = record::load_recording(std::filesystem::path(arguments.capture));
-    record::ReplayOptions options = arguments.options;
-    std::optional<host::FolderCard> card;
-    if (!arguments.sd.empty()) {
-        options.services.sd = &card.emplace(arguments.sd);
+void write_plot(const std::string& file, const std::string& svg) {
+    std::ofstream out(file, std::ios::binary | std::ios::trunc);
+    out << svg;
+    out.close();
+    if (!out) {
+        throw link::HostError(fmt::format("{} cannot be written. Name a file in a folder of yours.", file));
     }
+}
+
+/// Line by line, however long the recording is.
+ExitCode play(const ReplayArguments& arguments, const std::shared_ptr<const behaviour::Profile>& profile,
+              const record::ReplayOptions& options) {
+    std::ifstream in = open_recording(arguments.capture);
+    record::OrderedRecording recording(record::RecordingReader(in, arguments.capture));
+    Batch out;
+    record::ReplayTalk talk;
+    talk.first_board_line = first_board_line(arguments.capture);
+    talk.next = [&] { return recording.next(); };
+    talk.on_line = [&](const record::RecordedLine& line) { out.add(record::recording_line(line)); };
+    talk.on_notice = print_notice;
+    record::replay(profile, talk, options);
+    return ExitCode::ok;
+}
+
+ExitCode compare(const ReplayArguments& arguments, const std::shared_ptr<const behaviour::Profile>& profile,
+                 const record::ReplayOptions& options) {
+    std::error_code error;
+    if (std::filesystem::file_size(arguments.capture, error) > most_compared_bytes && !error) {
+        throw record::ReplayError("it is too large to be compared at once; cut it to 256 MiB");
+    }
+    const auto recording = record::load_recording(std::filesystem::path(arguments.capture));
     const record::ReplayResult result = record::replay(profile, recording, options);
-    print_notices(result);
-    if (!arguments.compare) {
-        std::string text;
-        for (const record::RecordedLine& line : result.lines) {
-            text += record::recording_line(line);
+    for (const record::ReplayNotice& notice : result.notices) {
+        print_notice(notice);
+    }
+    if (!arguments.plot.empty()) {
+        write_plot(arguments.plot, record::plot_svg({{"recorded", recording}, {"replayed", result.lines}},
+                                                    record::prints_folded(*profile)));
+        if (!arguments.compare) {
+            return ExitCode::ok;
         }
-        print(text);
-        return ExitCode::ok;
     }
     const record::Comparison comparison =
         record::compare(recording, result.lines, record::prints_folded(*profile));
     print(arguments.json ? record::comparison_json(comparison).dump(2, ' ', true) + "\n"
                          : record::comparison_text(comparison));
     return comparison.ok() ? ExitCode::ok : ExitCode::failed;
+}
+
+ExitCode replay(const ReplayArguments& arguments) {
+    const auto profile = host::load_profile_by_name(arguments.profile);
+    record::ReplayOptions options = arguments.options;
+    std::optional<host::FolderCard> card;
+    if (!arguments.sd.empty()) {
+        options.services.sd = &card.emplace(arguments.sd);
+    }
+    return arguments.compare || !arguments.plot.empty() ? compare(arguments, profile, options)
+                                                        : play(arguments, profile, options);
 }
 
 ExitCode guarded(const ReplayArguments& arguments) {
@@ -90,6 +152,9 @@ void add_replay(CLI::App& app, ExitCode& exit) {
     CLI::Option* compare = command->add_flag(
         "--compare", arguments->compare,
         "Report instead how our lines differ from the recorded board's; exit code 1 when too much");
+    command->add_option("--plot", arguments->plot,
+                        "Draw the curves instead, recorded against replayed: an SVG for any browser")
+        ->type_name("FILE.svg");
     command->add_flag("--json", arguments->json, "The report as one JSON object")->needs(compare);
     command->callback([arguments, &exit] { exit = guarded(*arguments); });
 }

@@ -15,8 +15,12 @@ void write(int fd, std::string_view text) {
 }  // namespace
 
 ExitCode complain(std::string_view command, ExitCode code, std::string_view sentence) {
-    write(STDERR_FILENO, fmt::format("fauxboard {}: {}\n", command, sentence));
+    write(STDERR_FILENO, fmt::format("fauxboard{}{}: {}\n", command.empty() ? "" : " ", command, sentence));
     return code;
+}
+
+void print_error(std::string_view text) {
+    write(STDERR_FILENO, text);
 }
 
 void print(std::string_view text) {

@@ -3,32 +3,26 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cstdio>
+#include <cerrno>
+#include <chrono>
+#include <exception>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <system_error>
+#include <vector>
 
 #include "emulator/fault/printer_fault.h"
-#include "emulator/host/clock.h"
-#include "emulator/host/control_server.h"
-#include "emulator/host/eeprom_file.h"
-#include "emulator/host/faulty_link.h"
-#include "emulator/host/folder_card.h"
-#include "emulator/host/job_place_file.h"
 #include "emulator/host/json_log.h"
+#include "emulator/host/line_faults.h"
 #include "emulator/host/line_log.h"
-#include "emulator/host/live_board.h"
-#include "emulator/host/network_line.h"
 #include "emulator/host/profile_files.h"
 #include "emulator/host/profile_watch.h"
 #include "emulator/host/recorder.h"
-#include "emulator/host/screen_plug.h"
 #include "emulator/host/script_host.h"
-#include "emulator/link/event_loop.h"
 #include "emulator/link/host_error.h"
-#include "emulator/link/ports.h"
-#include "emulator/link/udp_socket.h"
-#include "emulator/machine/memory_volume.h"
+#include "emulator/panel/panel.h"
+#include "tools/board_unit.h"
 #include "tools/commands.h"
 #include "tools/report.h"
 #include "tools/run_options.h"
@@ -37,11 +31,9 @@
 namespace fauxboard::tools {
 namespace {
 
-using link::LinkState;
-using machine::SimTime;
-
 /// What a person can still follow, per second. A real line has some twenty at most.
 constexpr double log_lines_per_second = 100;
+constexpr std::chrono::milliseconds ready_retry{50};
 
 /// Everything that one run needs, in the order in which it must come and (backwards) go.
 class Run {
@@ -54,9 +46,10 @@ class Run {
           err_(STDERR_FILENO),
           log_(err_, options.json ? host::Detail::quiet : options.detail, log_rate(options.speed)),
           json_(out_),
-          profile_(scenario_ ? scenario_->cast.profile : host::load_profile_by_name(options.profile)),
-          clock_(host::make_clock(loop_, options.speed)),
-          signals_(loop_, {SIGINT, SIGTERM, SIGHUP}, [this](int number) { on_signal(number); }),
+          unit_(loop_, options,
+                scenario_ ? scenario_->cast.profile : host::load_profile_by_name(options.profile),
+                scenario_.get(), observers_),
+          signals_(loop_, link::ending_signals, [this](int number) { on_signal(number); }),
           watch_(loop_, [this] { reload(); }) {}
 
     ExitCode operator()();
@@ -66,18 +59,13 @@ class Run {
         return speed.max ? 0 : log_lines_per_second / speed.factor;
     }
     void set_up();
-    void set_up_disks(machine::Services& services);
-    link::Link& make_wire();
-    std::unique_ptr<link::Link> make_link();
     void open_script();
     ExitCode outcome();
-    std::unique_ptr<link::Link> make_host_link();
-    void open_control();
-    void open_network();
     void say_ready();
-    void say(board::Level level, std::string_view text);
+    void watch_profile();
+    void see_ready_off();
+    void warn_of_network();
     void reload();
-    void say_summary();
     void on_signal(int number);
 
     const RunOptions& options_;
@@ -88,131 +76,43 @@ class Run {
     host::LineLog log_;
     host::JsonLog json_;
     host::Observers observers_;
-    std::shared_ptr<const behaviour::Profile> profile_;
-    std::optional<host::FolderCard> card_;
-    std::optional<host::FolderCard> udisk_;
-    std::optional<machine::MemoryVolume> scenario_card_;
-    std::optional<host::EepromFile> eeprom_;
-    std::optional<host::JobPlaceFile> job_place_;
     std::optional<host::Recorder> recorder_;
-    std::unique_ptr<host::Clock> clock_;
-    std::unique_ptr<link::Link> wire_;  ///< the line as it is, if it leads out of this process
-    std::optional<host::ScreenPlug> plug_;
-    std::optional<host::FaultyLink> link_;
-    std::unique_ptr<link::Link> host_link_;  ///< the board's USB port
-    std::optional<board::Board> board_;
-    std::optional<host::LiveBoard> live_;
-    std::unique_ptr<link::UdpSocket> udp_;
-    std::optional<host::NetworkLine> network_;
-    std::optional<host::ControlServer> control_;
+    BoardUnit unit_;
+    std::optional<panel::Panel> panel_;
     std::optional<host::ScriptHost> script_;
+    link::Timer ready_retry_{loop_, [this] { see_ready_off(); }};
     link::Signals signals_;
     host::ProfileWatch watch_;
 };
 
-void Run::say(board::Level level, std::string_view text) {
-    observers_.on_notice(live_ ? live_->now() : SimTime{0}, level, text);
-}
-
-link::Link& Run::make_wire() {
-    if (!options_.screen.empty()) {
-        return plug_.emplace(scenario_->cast.screen, *clock_).board_end();
-    }
-    wire_ = make_link();
-    return *wire_;
-}
-
-std::unique_ptr<link::Link> Run::make_link() {
-    if (!options_.tcp.empty()) {
-        return link::make_tcp_listen_link(loop_, options_.tcp);
-    }
-    if (!options_.port.empty()) {
-        const std::string port = options_.port == "auto" ? link::pick_auto_port() : options_.port;
-        return link::make_port_link(loop_, port, options_.baud != 0 ? options_.baud : profile_->line.baud);
-    }
-    return link::make_pty_link(loop_, options_.pty_name);
-}
-
-std::unique_ptr<link::Link> Run::make_host_link() {
-    const HostLine& line = options_.host;
-    if (!line.tcp.empty()) {
-        return link::make_tcp_listen_link(loop_, line.tcp);
-    }
-    if (!line.port.empty()) {
-        return link::make_port_link(loop_, line.port, line.baud);
-    }
-    return link::make_pty_link(loop_, line.pty_name);
-}
-
 void Run::set_up() {
-    log_.call_peer(profile_->line.peer);
+    log_.call_peer(unit_.profile()->line.peer);
     observers_.add(log_);
-    const auto warn = [this](std::string_view text) { say(board::Level::warning, text); };
     if (!options_.record.empty()) {
-        recorder_.emplace(options_.record, [warn](SimTime, std::string_view text) { warn(text); });
+        recorder_.emplace(options_.record, [this](machine::SimTime, std::string_view text) {
+            unit_.say(board::Level::error, text);
+        });
         observers_.add(*recorder_);
     }
-    machine::Services services;
-    set_up_disks(services);
-    if (!options_.eeprom.empty()) {
-        services.eeprom = &eeprom_.emplace(options_.eeprom, warn);
-        services.job_place = &job_place_.emplace(eeprom_->file() + ".job", warn);
+    unit_.set_up();
+    if (!options_.control.empty() || options_.web) {
+        unit_.open_target([this] { loop_.stop(); });
     }
-    board::Options options;
-    options.pacing = options_.pacing;
-    options.seed = options_.seed;
-    options.observer = &observers_;
-    board_.emplace(profile_, services, options);
-    link_.emplace(make_wire(), *clock_, fault::Direction::to_board);
-    for (const std::string& text : options_.faults) {
-        const fault::FaultSpec spec = fault::fault_from_text(text);
-        if (!fault::is_for_printer(spec)) {
-            link_->add(spec);
-        } else if (board_->machine().faults.add(SimTime{0}, fault::to_request(spec)) == 0) {
-            throw fault::FaultSpecError({fmt::format("fault \"{}\": {}", text,
-                                                     board_->machine().faults.refusal(*spec.kind->printer))});
-        }
-    }
-    live_.emplace(*board_, *link_, *clock_, &observers_);
-}
-
-void Run::set_up_disks(machine::Services& services) {
-    if (!options_.sd.empty()) {
-        services.sd = &card_.emplace(options_.sd);
-    } else if (scenario_ && scenario_->card) {
-        services.sd = &scenario_card_.emplace(*scenario_->card);
-    }
-    if (!options_.udisk.empty()) {
-        if (!profile_->machine->udisk_port) {
-            throw link::HostError(
-                fmt::format("The board of the profile {} has no port for a U-disk. Leave --udisk out, or say "
-                            "\"machine\": {{\"udisk_port\": true}} in a profile of your own that extends it.",
-                            profile_->name));
-        }
-        services.udisk = &udisk_.emplace(options_.udisk, "the U-disk");
-    }
-}
-
-void Run::open_control() {
-    if (options_.control.empty()) {
-        return;
-    }
-    control_.emplace(
-        host::ControlServer::Parts{loop_, *board_, *live_, *clock_, *link_, &*link_, [this] { loop_.stop(); },
-                                   [this](std::string_view text) { say(board::Level::info, text); }});
-    observers_.add(*control_);
-    control_->open(options_.control);
 }
 
 void Run::open_script() {
     if (!scenario_) {
         return;
     }
-    script_.emplace(
-        host::ScriptHost::Parts{*live_, *clock_, &*link_, plug_ ? &*plug_ : nullptr, [this] { loop_.stop(); },
-                                [this](std::string_view text) { say(board::Level::info, text); }},
-        scenario_, options_.speed);
+    script_.emplace(host::ScriptHost::Parts{
+                        unit_.live(), unit_.clock(), &unit_.faults(), unit_.plug(), [this] { loop_.stop(); },
+                        [this](std::string_view text) { unit_.say(board::Level::info, text); },
+                        unit_.display()},
+                    scenario_, options_.speed);
     observers_.add(*script_);
+    if (unit_.target() != nullptr) {
+        unit_.target()->show(script_->player());
+    }
 }
 
 /// How the scenario ended; without one all is well.
@@ -221,144 +121,122 @@ ExitCode Run::outcome() {
         return ExitCode::ok;
     }
     script_->interrupt("from outside");
-    board_->refresh(board_->time());
+    unit_.board().refresh(unit_.board().time());
     script::Json faults = script::Json::array();
-    for (const fault::FaultStatus& status : link_->list()) {
+    for (const fault::FaultStatus& status : unit_.faults().list()) {
         faults.push_back(fault::status_to_json(status));
     }
-    for (const machine::Fault& broken : board_->machine().faults.list()) {
+    for (const machine::Fault& broken : unit_.board().machine().faults.list()) {
         faults.push_back(fault::printer_fault_to_json(broken));
     }
-    return tell_outcome(options_, script_->player(), *board_, faults, out_, err_);
-}
-
-void Run::open_network() {
-    if (!options_.udp.empty()) {
-        udp_ = link::make_udp_socket(loop_, options_.udp);
-        udp_->open(network_.emplace(*live_, *udp_, &observers_));
-    }
+    return tell_outcome(options_, script_->player(), unit_.board(), faults, out_, err_);
 }
 
 void Run::say_ready() {
-    nlohmann::ordered_json ready{
-        {"profile", profile_->name}, {"link", link_->kind()}, {"path", link_->path()}};
-    if (!options_.pty_name.empty()) {
-        ready["name"] = options_.pty_name;
+    nlohmann::ordered_json ready = unit_.ready();
+    if (panel_) {
+        ready["web"] = panel_->address();
     }
-    if (host_link_) {
-        ready["host"] = {{"link", host_link_->kind()}, {"path", host_link_->path()}};
-        if (!options_.host.pty_name.empty()) {
-            ready["host"]["name"] = options_.host.pty_name;
-        }
-    }
-    if (control_) {
-        ready["control"] = options_.control;
-    }
-    if (udp_) {
-        ready["udp"] = udp_->path();
-    }
-    out_.write("ready " + ready.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) + "\n");
+    out_.keep("ready " + ready.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) + "\n");
+    see_ready_off();
     if (options_.json) {
         observers_.add(json_);  // not before: the ready line is the first
     }
+    const behaviour::Profile& profile = *unit_.profile();
     err_.write(
         fmt::format("This is fauxboard, an emulator: there is no real printer here.\n"
-                    "{} on {}{}. Ctrl-C ends it.\n",
-                    profile_->title.empty() ? profile_->name : profile_->title, link_->describe(),
-                    host_link_ ? ", its USB port on " + host_link_->describe() : std::string()));
+                    "{}{}. Ctrl-C ends it.\n{}",
+                    profile.title.empty() ? profile.name : profile.title, unit_.where(),
+                    panel_ ? "To look at it, open " + panel_->address() + "\n" : std::string()));
+}
+
+void Run::watch_profile() {
+    watch_.watch(unit_.profile()->files);
+    if (!watch_.works()) {
+        unit_.say(board::Level::info,
+                  "this system does not tell of changed files; changes of the profile are "
+                  "not noticed");
+    }
+}
+
+/// Until the line that scripts wait for has been taken. Where it never can be, nobody should wait.
+void Run::see_ready_off() {
+    if (!out_.flush()) {
+        return ready_retry_.after(ready_retry);
+    }
+    const int error = out_.error();
+    if (error != 0 && error != EPIPE && error != EBADF) {  // a closed stdout wants to hear nothing
+        throw link::HostError(fmt::format("The line \"ready\" cannot be written to stdout ({}).",
+                                          std::system_category().message(error)));
+    }
+}
+
+/// Who binds beyond this computer may not know that anybody can then drive the board.
+void Run::warn_of_network() {
+    for (const std::string& path : unit_.network_paths()) {
+        if (link::reaches_network(path)) {
+            unit_.say(board::Level::warning,
+                fmt::format("{} can be reached from other computers; whoever reaches it can drive this board",
+                            path));
+        }
+    }
 }
 
 void Run::reload() {
     try {
         auto profile = host::load_profile_by_name(options_.profile);
         watch_.watch(profile->files);
-        profile_ = profile;
-        live_->reload(std::move(profile));
-        if (control_) {
-            control_->on_reload();
-        }
-        say(board::Level::info, "the changed profile is in force");
+        unit_.reload(std::move(profile));
+        unit_.say(board::Level::info, "the changed profile is in force");
     } catch (const behaviour::ProfileError& error) {
-        say(board::Level::error, "the changed profile is wrong, the one before stays in force:");
+        unit_.say(board::Level::error, "the changed profile is wrong, the one before stays in force:");
         for (const behaviour::Problem& problem : error.problems()) {
-            say(board::Level::error, problem.sentence());
+            unit_.say(board::Level::error, problem.sentence());
         }
-    }
-}
-
-void Run::say_summary() {
-    const board::Counters& c = board_->counters();
-    const link::LinkStats& l = link_->stats();
-    err_.write(
-        fmt::format("After {:.3f} s: {} lines heard, {} said, on all lines. Bad frames {}, too long {}, "
-                    "unknown codes {}, "
-                    "no rule {}, requests lost {}, messages lost {}, cut {}. Bytes of the main line: in {}, "
-                    "out {}, lost {}.\n",
-                    machine::to_seconds(live_->now()), c.lines_received, c.lines_sent, c.bad_frames,
-                    board_->lines_too_long(), c.unknown_codes, c.unmatched, c.requests_lost, c.messages_lost,
-                    c.lines_cut, l.bytes_in, l.bytes_out, l.bytes_lost));
-    for (const fault::FaultStatus& status : link_->list()) {
-        err_.write(host::fault_sentence(status) + "\n");
-    }
-    for (const machine::Fault& broken : board_->machine().faults.list()) {
-        err_.write(fault::printer_fault_sentence(broken) + "\n");
+    } catch (const std::exception& error) {  // of the system: out of memory, say
+        unit_.say(board::Level::error,
+            fmt::format("the changed profile cannot be loaded ({}), the one before stays in force",
+                        error.what()));
     }
 }
 
 void Run::on_signal(int number) {
     if (script_) {
-        script_->interrupt(number == SIGINT ? "by SIGINT" : number == SIGTERM ? "by SIGTERM" : "by SIGHUP");
+        script_->interrupt("by " + link::signal_name(number));
     }
     loop_.stop();
 }
 
 ExitCode Run::operator()() {
     set_up();
-    open_control();
     open_script();
-    open_network();
-    link_->open(*live_);
-    if (options_.host.wanted()) {
-        host_link_ = make_host_link();
-        host_link_->open(live_->attach(board::Channel::host, *host_link_));
+    unit_.open();
+    if (options_.web) {
+        panel_.emplace(loop_, *options_.web,
+                       std::vector{panel::Panel::Shown{unit_.profile()->name, *unit_.target()}});
     }
     say_ready();
+    warn_of_network();
     if (options_.reload && !scenario_) {  // which was checked against this one
-        watch_.watch(profile_->files);
-        if (!watch_.works()) {
-            say(board::Level::info,
-                "this system does not tell of changed files; changes of the profile are "
-                "not noticed");
-        }
+        watch_profile();
     }
-    live_->start(options_.duration, [this] {
+    unit_.start(options_.duration, [this] {
         if (script_) {
             script_->interrupt("by --duration");
         }
         loop_.stop();
     });
-    if (plug_) {
-        plug_->start();
-    }
     if (script_) {
         script_->start();
     }
-    clock_->run();
-    if (control_) {
-        control_->close();
+    unit_.clock().run();
+    if (unit_.target() != nullptr) {
+        unit_.target()->on_end();
     }
-    if (udp_) {
-        udp_->close();
-    }
-    link_->close();
-    if (plug_) {
-        plug_->close();
-    }
-    if (host_link_) {
-        host_link_->close();
-    }
-    log_.finish(live_->now());
-    say_summary();
+    panel_.reset();
+    unit_.close();
+    log_.finish(unit_.live().now());
+    err_.write(unit_.summary());
     return outcome();
 }
 

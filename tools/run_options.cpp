@@ -99,20 +99,7 @@ void declare_host_line(CLI::App& command, RunOptions& options) {
 }
 
 void declare_time(CLI::App& command, RunOptions& options) {
-    command
-        .add_option_function<std::string>(
-            "--speed",
-            [&options](const std::string& text) {
-                const auto speed = host::parse_speed(text);
-                if (!speed) {
-                    throw CLI::ValidationError("--speed", "'" + text +
-                                                              "' is no speed; expected a number from 0.01 "
-                                                              "to 1000000, or max");
-                }
-                options.speed = *speed;
-            },
-            "Virtual seconds per second; 'max' never waits")
-        ->type_name("N|max");
+    add_speed(command, options.speed, true);
     add_duration(command, options.duration, "Stop after this virtual time");
     command.add_option("--seed", options.seed, "Of all noise: the same seed and input give the same bytes")
         ->type_name("N")
@@ -126,6 +113,7 @@ void declare_talk(CLI::App& command, RunOptions& options) {
         .add_option("--control", options.control,
                     "Open a control channel, apart from the line: a Unix socket for `fauxboard ctl`")
         ->type_name("PATH");
+    add_web(command, options.web);
     command.add_flag("--json", options.json, "The log as JSON lines on stdout, instead of text on stderr");
     CLI::Option* verbose = command.add_flag_callback(
         "-v,--verbose", [&options] { options.detail = host::Detail::verbose; }, "Log all there is");
@@ -155,6 +143,10 @@ void declare_run_options(CLI::App& command, RunOptions& options) {
                     "File that keeps the board's settings, and beside it FILE.job the place of a print "
                     "(default: none)")
         ->type_name("FILE");
+    command
+        .add_option("--panel", options.panel,
+                    "Folder for what the UV panel of a board that has one shows: a PNG each, and panel.jsonl")
+        ->type_name("DIR");
     declare_script(command, options);
     declare_time(command, options);
     declare_talk(command, options);

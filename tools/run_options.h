@@ -37,8 +37,10 @@ struct RunOptions {
     std::string sd;                   ///< folder; empty: the card that the profile carries
     std::string udisk;                ///< folder; empty: none
     std::string eeprom;               ///< file; empty: in memory
+    std::string panel;                ///< folder for what a UV panel shows; empty: none
     std::string record;               ///< file; empty: none
     std::string control;              ///< socket of the control channel; empty: none
+    std::optional<std::string> web;   ///< "HOST:PORT" of the panel in the browser; nothing: none
     std::string script;               ///< a scenario; empty: none
     std::string screen;               ///< a virtual screen in this process instead of a line; empty: none
     std::string junit;                ///< file; empty: none

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "emulator/behaviour/document.h"
+#include "emulator/behaviour/fields.h"
 #include "emulator/control/names.h"
 #include "emulator/host/profile_files.h"
 #include "emulator/host/screen_files.h"
@@ -50,6 +51,17 @@ std::string talk_text(const Outcome& outcome) {
     return out.empty() ? out : "What passed last:\n" + out;
 }
 
+/// Reports are made to be shared.
+void mask(Json& state) {
+    for (auto& [path, value] : state.items()) {
+        const behaviour::Field* const field = behaviour::find_field(path);
+        if (field != nullptr && field->secret && value.is_string() &&
+            !value.get_ref<const std::string&>().empty()) {
+            value = "***";
+        }
+    }
+}
+
 bool write_file(const std::string& file, const std::string& text) {
     std::ofstream out(file, std::ios::binary | std::ios::trunc);
     out << text;
@@ -71,11 +83,7 @@ std::shared_ptr<const script::Scenario> plan_script(RunOptions& options) {
     if (options.screen.empty() && !options.line_given) {
         options.screen = head.screen;
     }
-    script::Cast cast;
-    cast.profile = host::load_profile_by_name(options.profile);
-    if (!options.screen.empty()) {
-        cast.screen = host::load_screen_by_name(options.screen);
-    }
+    const script::Cast cast = host::make_cast(options.profile, options.screen);
     script::Arguments arguments;
     for (const std::string& each : options.params) {
         const std::size_t sign = each.find('=');
@@ -94,6 +102,7 @@ ExitCode tell_outcome(const RunOptions& options, const script::Player& player, c
     }
     more["faults"] = faults;
     more["state"] = control::values_of(board, control::all_places(board));
+    mask(more["state"]);
     const Json report = script::outcome_json(player.scenario(), outcome, more);
     err.write((outcome.verdict == Outcome::Verdict::passed ? std::string{} : talk_text(outcome)) +
               outcome.sentence + "\n");

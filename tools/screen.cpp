@@ -19,16 +19,19 @@ constexpr const char* examples =
   fauxboard screen --port auto tour --junit tour.xml         every button of a real board
   fauxboard screen --tcp :4000 show Control/Speed
   fauxboard screen --port /tmp/screen interactive            the pages, with keyboard and mouse
+  fauxboard screen --control /tmp/board press Service "Move Z"   the screen that is part of a board
 
 Exit codes: 0 all expectations met, 1 one was not, or a button cannot be pressed now, 2 there is no such
 button or page, 3 the screen's file is wrong, 4 the line cannot be opened or was lost, 5 the board says nothing.)--";
 
 /// A subcommand of `screen`. Its own options stand behind its name, those of the line before or behind.
 CLI::App* add(CLI::App& screen, ScreenOptions& options, ExitCode& exit, const char* name, const char* help,
-              ExitCode (*body)(const ScreenOptions&)) {
+              ExitCode (*body)(const ScreenOptions&), ExitCode (*own)(const ScreenOptions&)) {
     CLI::App* command = screen.add_subcommand(name, help);
     command->fallthrough();
-    command->callback([&options, &exit, body] { exit = guard_screen([&] { return body(options); }); });
+    command->callback([&options, &exit, body, own] {
+        exit = guard_screen([&] { return options.control.empty() ? body(options) : own(options); });
+    });
     return command;
 }
 
@@ -43,7 +46,8 @@ void add_screen(CLI::App& app, ExitCode& exit) {
     command->footer(examples);
     declare_screen_options(*command, options);
 
-    CLI::App* one = add(*command, options, exit, "press", "Press buttons, and print the talk", press);
+    CLI::App* one =
+        add(*command, options, exit, "press", "Press buttons, and print the talk", press, press_own);
     one->add_option("BUTTON", options.buttons,
                     "Paths; 'NAME=5' types a number in, 'File 2' is the second row")
         ->required()
@@ -52,16 +56,16 @@ void add_screen(CLI::App& app, ExitCode& exit) {
     one->add_flag("-v,--verbose", options.verbose, "Print also what was said before the first touch");
 
     CLI::App* all =
-        add(*command, options, exit, "tour", "Press every button, and check what comes back", tour);
+        add(*command, options, exit, "tour", "Press every button, and check what comes back", tour, tour_own);
     all->add_option("--junit", options.junit, "Write a report that CI servers read")->type_name("FILE");
     all->add_flag("--json", options.json, "The results as one JSON object instead of a table");
 
-    CLI::App* page = add(*command, options, exit, "show", "Open a page, and print it", show);
+    CLI::App* page = add(*command, options, exit, "show", "Open a page, and print it", show, show_own);
     page->add_option("PAGE", options.page, "Its path, or the end of it (Main)")->type_name("");
     page->add_flag("--json", options.json, "The page as one JSON object");
 
     add(*command, options, exit, "interactive", "Show the pages in the terminal, with keyboard and mouse",
-        interactive);
+        interactive, interactive_own);
 
     // Keeps the options alive as long as the command line's own objects.
     command->callback([shared] {});

@@ -11,4 +11,10 @@ ExitCode tour(const ScreenOptions& options);
 ExitCode show(const ScreenOptions& options);
 ExitCode interactive(const ScreenOptions& options);
 
+/// The same with the screen that is part of a board, at the board's control channel.
+ExitCode press_own(const ScreenOptions& options);
+ExitCode tour_own(const ScreenOptions& options);
+ExitCode show_own(const ScreenOptions& options);
+ExitCode interactive_own(const ScreenOptions& options);
+
 }  // namespace fauxboard::tools

@@ -35,6 +35,10 @@ void declare_screen_options(CLI::App& command, ScreenOptions& options) {
     line->add_option("--port", options.port, "Serial port, pseudo-terminal, or 'auto'")
         ->type_name("DEV|auto");
     line->add_option("--tcp", options.tcp, "Connect to a socket")->type_name("HOST:PORT");
+    line->add_option(
+            "--control", options.control,
+            "The screen that is part of a board, at its control channel (as given to `run --control`)")
+        ->type_name("PATH");
     line->require_option(1);
     command
         .add_option("--screen", options.screen,

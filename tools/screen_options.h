@@ -11,8 +11,9 @@ namespace fauxboard::tools {
 
 /// What `fauxboard screen` was asked for; each of its subcommands uses a part of it.
 struct ScreenOptions {
-    std::string port;  ///< a device or "auto"; empty: none
-    std::string tcp;   ///< "HOST:PORT"; empty: none
+    std::string port;     ///< a device or "auto"; empty: none
+    std::string tcp;      ///< "HOST:PORT"; empty: none
+    std::string control;  ///< the channel of a board that has a screen of its own; empty: none
     std::string screen = "geeetech-a30t";
     unsigned baud = 115200;
     host::Speed speed;

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <system_error>
 
+#include "emulator/host/plain_text.h"
 #include "emulator/host/text_output.h"
 #include "emulator/link/host_error.h"
 #include "emulator/screen/tour_report.h"
@@ -29,13 +30,14 @@ class Progress {
 
     void say(std::size_t done, std::size_t total, std::string_view last) {
         if (shown_) {
-            out_.write(fmt::format("\r\x1b[K{:4} of {}  {}", done, total, last.substr(0, 60)));
+            out_.write(host::StyledLine(false).over().add(
+                fmt::format("{:4} of {}  {}", done, total, last.substr(0, 60))));
             dirty_ = true;
         }
     }
     void clear() {
         if (std::exchange(dirty_, false)) {
-            out_.write("\r\x1b[K");
+            out_.write(host::StyledLine(false).over());
         }
     }
 
@@ -100,10 +102,12 @@ ExitCode tour(const ScreenOptions& options) {
     }
     const std::string& name = session.screen().profile().name;
     const auto& findings = session.screen().findings();
+    const screen::ScreenCounters& counters = session.screen().counters();
+    const bool talks = session.screen().profile().talk.queued;
     if (options.json) {
-        print(screen::tour_json(name, user.results(), findings));
+        print(screen::tour_json(name, user.results(), findings, talks ? &counters : nullptr));
     } else {
-        print(screen::tour_table(user.results()));
+        print(screen::tour_table(user.results()) + (talks ? screen::talk_text(counters) : ""));
         if (!findings.empty()) {
             print("\nWhat this screen did not take as it was meant:\n" + screen::findings_text(findings));
         }

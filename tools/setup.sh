@@ -5,9 +5,13 @@ top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
 say() { printf '\n== %s\n' "$*"; }
 
+# What the program is built with, and what its tests want besides.
 build_packages=(g++ cmake ninja-build pkg-config libserialport-dev nlohmann-json3-dev libspdlog-dev libfmt-dev
-                libcli11-dev libvalijson-dev libncurses-dev libre2-dev libpng-dev doctest-dev libbenchmark-dev)
-test_packages=(clang libclang-rt-dev)
+                libcli11-dev libncurses-dev libre2-dev libpng-dev libmicrohttpd-dev libjs-dygraphs
+                libfreetype-dev fonts-dejavu-core libmd-dev)
+test_packages=(doctest-dev libbenchmark-dev clang libclang-rt-dev printrun-common python3-serial)
+# Of these only the files are taken: what they depend on is for uses that nobody has here.
+header_packages=(libvalijson-dev)
 
 # install PACKAGE...: those of them that are missing.
 install() {
@@ -17,6 +21,7 @@ install() {
     done
     if [ ${#missing[@]} -eq 0 ]; then
         say "All packages are there"
+        unpack
         return
     fi
     if [ "$(id -u)" -ne 0 ]; then
@@ -26,12 +31,29 @@ install() {
     say "Installing ${missing[*]}"
     "${as_root[@]}" apt-get update -qq
     "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"
+    unpack
 }
 
-# build PRESET [CMAKE BUILD ARGUMENT...]
+# The files of the header packages, into .packages in this checkout, if nobody has installed them.
+unpack() {
+    local package folder
+    for package in "${header_packages[@]}"; do
+        [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)" != installed ] || continue
+        [ ! -e "$top/.packages/$package" ] || continue
+        say "Unpacking the headers of $package"
+        folder=$(mktemp -d)
+        chmod 755 "$folder"  # apt fetches as a user of its own
+        (cd "$folder" && apt-get download -qq "$package" && dpkg-deb -x ./*.deb "$top/.packages")
+        rm -rf "$folder"
+        touch "$top/.packages/$package"
+    done
+}
+
+# build PRESET [CMAKE BUILD ARGUMENT...]; `tests` says whether they are wanted, and with them what only they need.
+tests=ON
 build() {
     local preset=$1
     shift
     say "Building, preset $preset"
-    (cd "$top" && cmake --preset "$preset" >/dev/null && cmake --build --preset "$preset" "$@")
+    (cd "$top" && cmake --preset "$preset" -DBUILD_TESTING="$tests" >/dev/null && cmake --build --preset "$preset" "$@")
 }

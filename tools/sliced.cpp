@@ -56,7 +56,7 @@ void check_pictures(const SlicedOptions& options, const SlicedFile& file, const 
                     std::uint32_t n) {
     for (std::uint32_t plane = 0; plane < file.header().level_sets; ++plane) {
         const sliced::Layer layer = need(options, file.layer(source, n, plane));
-        auto runs = sliced::PictureRuns::of_layer(file, source, n, layer);
+        auto runs = sliced::PictureRuns::of_layer(file, source, n, layer, plane);
         for (sliced::Run run; runs.next(run);) {
         }
         if (!runs.problem().empty()) {
@@ -111,7 +111,7 @@ void write_picture(const SlicedOptions& options, const SlicedFile& file, const F
     PictureRows rows = rows_of(options, file, source);
     std::vector<std::uint32_t> values(rows.width());
     const bool colour = !options.layer;
-    const PngPicture picture{rows.width(), rows.height(), colour, [&](std::span<unsigned char> out) {
+    const PngPicture picture{rows.width(), rows.height(), colour, false, [&](std::span<unsigned char> out) {
                                  const bool more = rows.next(values);
                                  std::size_t at = 0;
                                  for (const std::uint32_t value : values) {
@@ -149,9 +149,10 @@ ExitCode sliced(const SlicedOptions& options) {
 
 void add_sliced(CLI::App& app, ExitCode& exit) {
     CLI::App* command = app.add_subcommand(
-        "sliced", "Tell what is in a sliced file of a resin printer (.ctb, .cbddlp, .photon)");
+        "sliced",
+        "Tell what is in a sliced file of a resin printer (.ctb, .cbddlp, .photon, .pws, .photons)");
     const auto options = std::make_shared<SlicedOptions>();
-    command->add_option("FILE", options->file, "The file; versions 1 to 3")->required();
+    command->add_option("FILE", options->file, "The file")->required();
     command->add_flag("--json", options->json, "JSON lines: the header, then each layer");
     CLI::Option* layer =
         command->add_option("--layer", options->layer, "This layer's picture; the first is 0")

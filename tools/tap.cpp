@@ -16,6 +16,7 @@
 #include "emulator/host/clock.h"
 #include "emulator/host/faulty_link.h"
 #include "emulator/host/json_log.h"
+#include "emulator/host/line_faults.h"
 #include "emulator/host/recorder.h"
 #include "emulator/host/tap.h"
 #include "emulator/host/tap_end.h"
@@ -57,7 +58,7 @@ class TapRun final : public host::TapObserver {
           log_(err_, options.log),
           clock_(host::make_clock(loop_, {})),
           alarm_(clock_->make_alarm([this] { wake(); })),
-          signals_(loop_, {SIGINT, SIGTERM, SIGHUP}, [this](int) { loop_.stop(); }) {}
+          signals_(loop_, link::ending_signals, [this](int) { loop_.stop(); }) {}
 
     void operator()();
 
@@ -137,8 +138,9 @@ void TapRun::add_faults() {
         return;
     }
     faulty_.emplace(screen_is_b() ? *b_ : *a_, *clock_, fault::Direction::to_board);
+    host::LineFaults only_line(*faulty_, nullptr);  // refuses those for another
     for (const std::string& spec : options_.faults) {
-        faulty_->add(fault::fault_from_text(spec));
+        only_line.add(fault::fault_from_text(spec));
     }
 }
 

@@ -8,6 +8,7 @@
 namespace fauxboard::behaviour::rows {
 
 std::span<const ActionInfo> device_actions();
+std::span<const ActionInfo> host_actions();
 std::span<const ActionInfo> transfer_actions();
 std::span<const ActionInfo> fault_actions();
 

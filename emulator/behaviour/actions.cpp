@@ -30,6 +30,7 @@ const std::vector<ActionInfo>& all() {
             list.insert(list.end(), part.begin(), part.end());
         };
         append(rows::device_actions());
+        append(rows::host_actions());
         append(rows::fault_actions());
         append(rows::transfer_actions());
         for (const KindRow* kind : kinds()) {

@@ -8,6 +8,7 @@
 
 #include "emulator/behaviour/notice.h"
 #include "emulator/behaviour/value.h"
+#include "emulator/behaviour/variables.h"
 #include "emulator/machine/machine.h"
 #include "protocol/command.h"
 
@@ -18,7 +19,8 @@ struct ActionContext {
     machine::Machine& machine;
     std::span<double> variables;  ///< the profile's own
     NoticeSink& notices;
-    const protocol::Command* command = nullptr;  ///< the request that is carried out; null in events
+    const protocol::Command* command = nullptr;        ///< the request that is carried out; null in events
+    const std::vector<VariableInfo>* infos = nullptr;  ///< of the variables; run_action() says it
     bool reset = false;  ///< set by board.reset; the board restarts when the rule is done
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "emulator/behaviour/action_rows.h"
 #include "emulator/behaviour/action_tables.h"
@@ -35,8 +36,24 @@ void job_start(ActionContext& c, Args) {
     }
 }
 
+/// What of the profile's variables is kept: nothing where nobody says what they are.
+std::optional<Variables> kept(const ActionContext& c) {
+    return c.infos == nullptr ? std::nullopt : std::optional<Variables>({c.variables, *c.infos});
+}
+
+void eeprom_load(ActionContext& c, Args a) {
+    const auto variables = kept(c);
+    load_fields(c.machine, a[0].text, variables ? &*variables : nullptr);
+}
+
+void eeprom_defaults(ActionContext& c, Args a) {
+    const auto variables = kept(c);
+    apply_image(c.machine, c.machine.factory_image, a[0].text, variables ? &*variables : nullptr);
+}
+
 void eeprom_save(ActionContext& c, Args a) {
-    if (!save_fields(c.machine, a[0].text)) {
+    const auto variables = kept(c);
+    if (!save_fields(c.machine, a[0].text, variables ? &*variables : nullptr)) {
         c.notices.notice(Level::error,
                          "the EEPROM could not be written; the settings live only until power-off");
     }
@@ -51,7 +68,9 @@ void board_stall(ActionContext& c, Args a) {
 constexpr std::array disk_args{ArgInfo{"disk", number, true, "0 SD card, 1 U-disk"}};
 constexpr std::array folder_args{
     ArgInfo{"name", text, true, "folder, as M20 file: names it; an empty one is the root"}};
-constexpr std::array file_args{ArgInfo{"name", text, true, "file, relative to the folder shown"}};
+constexpr std::array file_args{
+    ArgInfo{"name", text, true, "file, relative to the folder shown"},
+    ArgInfo{"replaces", number, false, "1: a job under way is dropped for it, not it refused"}};
 constexpr std::array seek_args{ArgInfo{"byte", number, true, "position in the file"}};
 constexpr std::array prefix_args{
     ArgInfo{"fields", text, false, "only fields whose path starts so; all if left out"}};
@@ -115,7 +134,8 @@ constexpr std::array table{
                {},
                [](ActionContext& c, Args) { c.machine.card_told(); }},
     ActionInfo{"job.select", "", "selects a file; raises file.selected, file.missing or file.unreadable",
-               file_args, [](ActionContext& c, Args a) { c.machine.select_file(a[0].text); }},
+               file_args,
+               [](ActionContext& c, Args a) { c.machine.select_file(a[0].text, number_or(a[1], 0) != 0); }},
     ActionInfo{"job.start", "", "starts the file selected, or resumes the paused job", {}, job_start},
     ActionInfo{
         "job.continue",
@@ -147,14 +167,12 @@ constexpr std::array table{
     ActionInfo{"job.seek", "", "position in the file (M26)", seek_args,
                [](ActionContext& c, Args a) { c.machine.seek_job(a[0].number); }},
     ActionInfo{"eeprom.save", "", "stores settings (M500)", prefix_args, eeprom_save},
-    ActionInfo{"eeprom.load", "", "takes stored settings back (M501)", prefix_args,
-               [](ActionContext& c, Args a) { load_fields(c.machine, a[0].text); }},
+    ActionInfo{"eeprom.load", "", "takes stored settings back (M501)", prefix_args, eeprom_load},
     ActionInfo{"eeprom.defaults", "", "factory settings (M502); the EEPROM itself stays until the next save",
-               prefix_args,
-               [](ActionContext& c, Args a) { apply_image(c.machine, c.machine.factory_image, a[0].text); }},
+               prefix_args, eeprom_defaults},
     ActionInfo{"machine.stop",
                "emergency stop",
-               "M112: job, heaters and motors off at once",
+               "job, heaters and motors off at once",
                {},
                [](ActionContext& c, Args) { c.machine.emergency_stop(); }},
     ActionInfo{"timer.start", "", "raises timer.over after a time; a timer that runs is set anew", timer_args,
@@ -162,13 +180,23 @@ constexpr std::array table{
                    const double ms = std::clamp(a[0].number, 0.0, 86'400'000.0);
                    c.machine.start_timer(machine::from_seconds(ms / 1000));
                }},
+    ActionInfo{
+        "machine.kill",
+        "",
+        "the same, and the board stops for good (M112): after what board.killed makes it say nothing is "
+        "heard or said until a reset",
+        {},
+        [](ActionContext& c, Args) { c.machine.kill(); }},
     ActionInfo{"board.stall", "", "the main loop, and with it the status wheel, stands still for a time",
                stall_args, board_stall},
     ActionInfo{"board.reset",
                "board reset",
                "restarts the board as its reset button does; what is physical stays",
                {},
-               [](ActionContext& c, Args) { c.reset = true; }},
+               [](ActionContext& c, Args) {
+                   c.reset = true;
+                   c.machine.restart = 1;
+               }},
 };
 
 }  // namespace

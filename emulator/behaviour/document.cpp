@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <unordered_map>
+#include <unordered_set>
 
 namespace fauxboard::behaviour {
 namespace {
@@ -74,7 +76,7 @@ class Builder {
     bool end_array() { return close(); }
 
     bool key(string_t& name) {
-        if (levels_.back().node->contains(name)) {
+        if (!levels_.back().keys.insert(name).second) {
             document_.places[pointer() + "/" + escape_pointer(name)] = {0, cursor_.token_line};
             problems.push_back(
                 document_.problem(pointer() + "/" + escape_pointer(name), "the key is given twice"));
@@ -99,6 +101,7 @@ class Builder {
     struct Level {
         Json* node;
         std::string pointer;
+        std::unordered_set<std::string> keys{};  ///< the object itself would be searched from its start
     };
 
     const std::string& pointer() const {
@@ -118,7 +121,9 @@ class Builder {
             return &parent.back();
         }
         where = pointer() + "/" + escape_pointer(key_);
-        return &(parent[key_] = std::move(v));
+        auto& members = parent.get_ref<Json::object_t&>();
+        members.emplace_back(key_, std::move(v));  // a key given twice is a problem already
+        return &members.back().second;
     }
 
     bool value(Json v) {
@@ -173,27 +178,72 @@ void take_places(Document& into, const Document& from, const std::string& pointe
     }
 }
 
+/// An object's members while another one is laid over it. The object keeps the order of its keys and is
+/// searched from its start, which for large ones would take as long as all of it each time.
+class Members {
+  public:
+    explicit Members(Json& object) : members_(object.get_ref<Json::object_t&>()) {
+        for (std::size_t i = 0; i < members_.size(); ++i) {
+            index_.emplace(member(i).first, i);
+        }
+    }
+    /// The member of that name, made where there is none. Good until the next one is made.
+    Json& at(const std::string& key) {
+        const auto [it, made] = index_.try_emplace(key, members_.size());
+        if (made) {
+            members_.emplace_back(key, Json());
+        }
+        return member(it->second).second;
+    }
+    void take_out(const std::string& key) { any_out_ = index_.erase(key) != 0 || any_out_; }
+    /// Does what was asked of take_out().
+    void finish() {
+        if (any_out_) {
+            Json::object_t kept;
+            for (std::size_t i = 0; i < members_.size(); ++i) {
+                const auto hit = index_.find(member(i).first);
+                if (hit != index_.end() && hit->second == i) {
+                    kept.emplace_back(member(i).first, std::move(member(i).second));
+                }
+            }
+            members_ = std::move(kept);
+        }
+    }
+
+  private:
+    Json::object_t::value_type& member(std::size_t i) {
+        return *(members_.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+
+    Json::object_t& members_;
+    std::unordered_map<std::string, std::size_t> index_;
+    bool any_out_ = false;
+};
+
 void overlay(Document& base, const Document& over, Json& target, const Json& patch,
              const std::string& pointer, std::size_t file_shift) {
+    Members members(target);
     for (const auto& [key, value] : patch.items()) {
         const std::string where = pointer + "/" + escape_pointer(key);
         if (value.is_null()) {
-            target.erase(key);
+            members.take_out(key);
             forget_places(base, where);
         } else if (value.is_object()) {
-            if (!target.contains(key) || !target[key].is_object()) {
+            Json& member = members.at(key);
+            if (!member.is_object()) {
                 forget_places(base, where);
-                target[key] = Json::object();
+                member = Json::object();
                 const auto place = over.places.find(where);
                 base.places[where] = {place->second.file + file_shift, place->second.line};
             }
-            overlay(base, over, target[key], value, where, file_shift);
+            overlay(base, over, member, value, where, file_shift);
         } else {
             forget_places(base, where);
-            target[key] = value;
+            members.at(key) = value;
             take_places(base, over, where, file_shift);
         }
     }
+    members.finish();
 }
 
 }  // namespace

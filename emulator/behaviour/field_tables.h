@@ -9,6 +9,7 @@
 namespace fauxboard::behaviour::rows {
 
 std::span<const Field> device_fields();
+std::span<const Field> host_fields();
 std::span<const Field> transfer_fields();
 std::span<const Field> fault_fields();
 

@@ -20,6 +20,7 @@ const std::vector<Field>& all() {
             list.insert(list.end(), part.begin(), part.end());
         };
         append(rows::device_fields());
+        append(rows::host_fields());
         append(rows::transfer_fields());
         append(rows::fault_fields());
         for (const KindRow* kind : kinds()) {

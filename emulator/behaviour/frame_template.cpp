@@ -1,8 +1,13 @@
 #include "emulator/behaviour/frame_template.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <optional>
+#include <string>
+#include <tuple>
 
 #include "emulator/behaviour/number_text.h"
 #include "protocol/framing.h"
@@ -18,7 +23,7 @@ Written copy_text(std::string_view text, std::span<char> out, bool lower, bool u
     Written written{std::min(text.size(), out.size()), 0};
     for (std::size_t i = 0; i < written.size; ++i) {
         char c = text[i];
-        if (static_cast<unsigned char>(c) < 0x20) {
+        if (static_cast<unsigned char>(c) < 0x20 && c != '\t') {
             c = '?';
         } else if (lower && c >= 'A' && c <= 'Z') {
             c = static_cast<char>(c - 'A' + 'a');
@@ -50,6 +55,29 @@ std::optional<std::size_t> text_limit(std::string_view format) {
         limit = limit * 10 + static_cast<std::size_t>(c - '0');
     }
     return limit <= most ? std::optional(limit) : std::nullopt;
+}
+
+/// Eight digits, in capitals.
+std::string hex_text(double value) {
+    std::array<char, 16> text;
+    std::snprintf(text.data(), text.size(), "%08X",
+                  static_cast<unsigned>(std::clamp(value, 0.0, 4294967295.0)));
+    return text.data();
+}
+
+/// Seconds as "1d 2h 3m 4s", leading units of zero left out.
+std::string time_text(double seconds) {
+    const auto whole = static_cast<long long>(std::clamp(seconds, 0.0, 1e12));
+    std::string out;
+    for (const auto& [unit, size, turn] :
+         {std::tuple{"d", 86400LL, 1'000'000'000LL}, std::tuple{"h", 3600LL, 24LL},
+          std::tuple{"m", 60LL, 60LL}, std::tuple{"s", 1LL, 60LL}}) {
+        const long long count = whole / size % turn;
+        if (count != 0 || !out.empty() || size == 1) {
+            out += (out.empty() ? "" : " ") + std::to_string(count) + unit;
+        }
+    }
+    return out;
 }
 
 bool needs_format(const Operand& operand) {
@@ -116,13 +144,17 @@ void FrameTemplate::add_value(std::string_view inside, const Names& names) {
         format = inside.substr(colon + 1);
     }
     part.operand = parse_reference(reference, names);
-    if (const auto most = text_limit(format)) {
+    const bool signed_one = format.starts_with('+');
+    format.remove_prefix(signed_one ? 1 : 0);
+    if (const auto most = text_limit(format); most && !signed_one) {
         part.style = Style::text;
         part.most = *most;
     } else if (format.size() == 3 && format[0] == '.' && format[2] == 'f' && format[1] >= '0' &&
                format[1] <= '6') {
-        part.style = Style::fixed;
+        part.style = signed_one ? Style::signed_fixed : Style::fixed;
         part.decimals = format[1] - '0';
+    } else if (format == "x" || format == "time") {
+        part.style = format == "x" ? Style::hex : Style::time;
     } else if (format == "d") {
         part.style = Style::whole;
     } else if (format == "s" || format == "lower" || format == "upper") {
@@ -136,7 +168,8 @@ void FrameTemplate::add_value(std::string_view inside, const Names& names) {
         part.style = part.operand.is_text() ? Style::text : Style::whole;
     } else {
         throw ExpressionError("unknown format \"" + std::string(format) + "\" in {" + std::string(inside) +
-                                  "}; expected .0f to .6f, d, s, .1s to .512s, lower or upper",
+                                  "}; expected .0f to .6f (+ before it for a sign), d, x, time, s, .1s to "
+                                  ".512s, lower or upper",
                               {});
     }
     const bool text_style =
@@ -169,12 +202,32 @@ Written FrameTemplate::render(const Scope& scope, std::span<char> out, bool& cut
             line += text;
             continue;
         }
-        const double number = part.style == Style::whole ? cut_off(value.number) : value.number;
-        const Written text = write_fixed(room, number, part.decimals);
+        const Written text = write_number(part, value.number, room);
         cut = cut || text.size == 0;
         line += text;
     }
     return line;
+}
+
+Written FrameTemplate::write_number(const Part& part, double value, std::span<char> room) {
+    switch (part.style) {
+        case Style::fixed:
+            return write_fixed(room, value, part.decimals);
+        case Style::whole:
+            return write_fixed(room, cut_off(value), 0);
+        case Style::signed_fixed: {
+            const bool plus = !std::signbit(value) && !room.empty();
+            if (plus) {
+                room[0] = '+';
+            }
+            Written text = write_fixed(room.subspan(plus ? 1 : 0), value, part.decimals);
+            text += plus ? Written{1, '+'} : Written{};
+            return text;
+        }
+        default:
+            break;
+    }
+    return copy_text(part.style == Style::hex ? hex_text(value) : time_text(value), room, false, false);
 }
 
 Written FrameTemplate::put_literal(const Part& part, std::span<char> room, bool& cut) const {

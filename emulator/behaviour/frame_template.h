@@ -29,7 +29,7 @@ class FrameTemplate {
     Written render(const Scope& scope, std::span<char> out, bool& cut) const;
 
   private:
-    enum class Style : std::uint8_t { literal, fixed, whole, text, lower, upper };
+    enum class Style : std::uint8_t { literal, fixed, signed_fixed, whole, hex, time, text, lower, upper };
     struct Part {
         Style style = Style::literal;
         std::uint8_t sum = 0;  ///< literal: XOR of its bytes
@@ -40,6 +40,7 @@ class FrameTemplate {
         Operand operand;
     };
 
+    static Written write_number(const Part& part, double value, std::span<char> room);
     Written put_literal(const Part& part, std::span<char> room, bool& cut) const;
     void add_literal(std::string_view text);
     void add_value(std::string_view inside, const Names& names);

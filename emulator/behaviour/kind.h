@@ -5,6 +5,7 @@
 
 #include "emulator/behaviour/actions.h"
 #include "emulator/behaviour/fields.h"
+#include "emulator/behaviour/lists.h"
 #include "emulator/behaviour/reader.h"
 #include "emulator/machine/kind.h"
 #include "emulator/machine/machine_config.h"
@@ -20,6 +21,9 @@ struct KindRow {
     std::shared_ptr<machine::MachineConfig> (*config)();
     /// Reads the kind's own keys of a profile's `machine`; `config` is what the function above made.
     void (*load)(ObjectReader& reader, Findings& findings, machine::MachineConfig& config);
+    /// What the screen of its board may list and show; null: nothing.
+    std::span<const List> (*lists)() = nullptr;
+    std::span<const Picture> (*pictures)() = nullptr;
 };
 
 /// One for each of machine::kinds(), in that order.

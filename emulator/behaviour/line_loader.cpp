@@ -15,6 +15,8 @@ void load_line(const Json& node, const std::string& pointer, Findings& findings,
     reader.choice("checksum", policies, policy);
     line.checksum = static_cast<protocol::ChecksumPolicy>(policy);
     reader.text("peer", line.peer, 16);
+    reader.boolean("optional", line.optional);
+    reader.boolean("none", line.none);
     double unfinished_ms = 0;
     reader.number("unfinished_ms", unfinished_ms, 0, 60'000);
     line.unfinished = machine::from_seconds(unfinished_ms / 1000);

@@ -1,7 +1,9 @@
 #include "emulator/behaviour/operand.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
+#include <utility>
 #include <vector>
 
 #include "emulator/behaviour/nearest.h"
@@ -75,12 +77,23 @@ std::optional<Operand> parse_parameter(std::string_view reference) {
     return std::nullopt;
 }
 
+/// "a.gco 1234" names a.gco, as does "P S100 !/a.gco#".
+std::string_view file_name(std::string_view text) {
+    if (const std::size_t mark = text.find('!'); mark != std::string_view::npos) {
+        text.remove_prefix(mark + 1);
+        return text.substr(0, text.find('#'));
+    }
+    return text.substr(0, text.find(' '));
+}
+
 std::optional<Operand> parse_request_word(std::string_view reference) {
     Operand operand;
     if (reference == "arg") {
         operand.kind = Operand::Kind::argument;
     } else if (reference == "name") {
         operand.kind = Operand::Kind::name;
+    } else if (reference == "file") {
+        operand.kind = Operand::Kind::file;
     } else if (reference == "text") {
         operand.kind = Operand::Kind::raw_text;
     } else {
@@ -125,6 +138,10 @@ Value Operand::evaluate_other(const Scope& scope) const {
             return scope.entry != nullptr ? Value::of(static_cast<double>(scope.entry->bytes)) : Value{};
         case Kind::entry_folder:
             return scope.entry != nullptr ? Value::of(scope.entry->folder ? 1.0 : 0.0) : Value{};
+        case Kind::entry_long_name:
+            return scope.entry != nullptr ? Value::of(std::string_view{scope.entry->long_name}) : Value{};
+        case Kind::entry_stamp:
+            return scope.entry != nullptr ? Value::of(static_cast<double>(scope.entry->stamp)) : Value{};
         default:
             break;
     }
@@ -142,6 +159,8 @@ Value Operand::evaluate_other(const Scope& scope) const {
             return Value::of(scope.command->argument);
         case Kind::name:
             return Value::of(machine::bare_name(scope.command->argument));
+        case Kind::file:
+            return Value::of(file_name(scope.command->argument));
         case Kind::raw_text:
             return Value::of(scope.command->text);
         case Kind::keyed: {
@@ -166,10 +185,12 @@ bool Operand::is_text() const {
         case Kind::text:
         case Kind::argument:
         case Kind::name:
+        case Kind::file:
         case Kind::raw_text:
         case Kind::keyed:
         case Kind::behind:
         case Kind::entry_name:
+        case Kind::entry_long_name:
             return true;
         case Kind::field:
             return field->type == FieldType::text;
@@ -183,16 +204,20 @@ Operand parse_reference(std::string_view reference, const Names& names) {
     if (reference.starts_with("var.")) {
         return parse_variable(reference.substr(4), names);
     }
-    if (reference == "entry.name" || reference == "entry.index" || reference == "entry.bytes" ||
-        reference == "entry.folder") {
-        if (!names.loop) {
-            throw ExpressionError(quoted(reference) + " is known only inside `for_each`", {});
+    constexpr std::array entries{std::pair{"entry.name", Operand::Kind::entry_name},
+                                 std::pair{"entry.index", Operand::Kind::entry_index},
+                                 std::pair{"entry.bytes", Operand::Kind::entry_bytes},
+                                 std::pair{"entry.folder", Operand::Kind::entry_folder},
+                                 std::pair{"entry.long_name", Operand::Kind::entry_long_name},
+                                 std::pair{"entry.stamp", Operand::Kind::entry_stamp}};
+    for (const auto& [name, kind] : entries) {
+        if (reference == name) {
+            if (!names.loop) {
+                throw ExpressionError(quoted(reference) + " is known only inside `for_each`", {});
+            }
+            operand.kind = kind;
+            return operand;
         }
-        operand.kind = reference == "entry.name"    ? Operand::Kind::entry_name
-                       : reference == "entry.index" ? Operand::Kind::entry_index
-                       : reference == "entry.bytes" ? Operand::Kind::entry_bytes
-                                                    : Operand::Kind::entry_folder;
-        return operand;
     }
     if (const auto word = parse_request_word(reference)) {
         if (!names.request) {

@@ -50,6 +50,7 @@ struct Operand {
         presence,   ///< {S?}: 1 when S stands on the line
         argument,   ///< {arg}: everything after the code, blanks trimmed
         name,       ///< {name}: the same without quotes and the colon of an absolute path
+        file,       ///< {file}: the name of a file in it: up to the first blank, or from '!' to '#'
         raw_text,   ///< {text}: everything after the code, leading blank included
         keyed,      ///< {FW:}: the word after "FW:"
         behind,     ///< {ETE...}: all after the first "ETE", wherever it stands, up to a star
@@ -57,6 +58,8 @@ struct Operand {
         entry_index,
         entry_bytes,
         entry_folder,
+        entry_long_name,
+        entry_stamp,
     };
     Kind kind = Kind::none;
     char letter = 0;

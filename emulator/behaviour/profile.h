@@ -30,8 +30,9 @@ inline constexpr std::size_t channel_count = 3;
 
 /// How commands are framed on the main line.
 enum class Framing : std::uint8_t {
-    frames,  ///< "N-0 M105*10"; a profile says "smartto"
-    lines,   ///< "M105", or "N12 M105*36"; number and checksum are taken off and not judged; "gcode"
+    frames,    ///< "N-0 M105*10"; a profile says "smartto"
+    lines,     ///< "M105", or "N12 M105*36"; number and checksum are taken off and not judged; "gcode"
+    commands,  ///< as on the USB side: numbers, resends, a queue, one command after the other; "marlin"
 };
 
 /// How the main line is spoken.
@@ -42,6 +43,8 @@ struct LineConfig {
     protocol::ChecksumPolicy checksum = protocol::ChecksumPolicy::required;
     unsigned queue_lines = 64;  ///< requests waiting for their tick; more are lost, as in the board's buffer
     std::string peer = "screen";  ///< what logs call the other end
+    bool optional = false;        ///< nothing need be there: the board may run with its USB side alone
+    bool none = false;            ///< the board has no line at all
     SimTime unfinished{0};  ///< a line without an end is taken for whole after so long a silence; 0: never
     /// A small board's receiving ring, emptied with each tick, and the longest line; 0: as much as there is.
     /// With either, NULs end a line's text, and comments are left out.
@@ -58,7 +61,8 @@ struct Frame {
     struct Line {
         FrameTemplate text;
         bool for_each_entry = false;  ///< once per entry of the card's listing
-        std::vector<Condition> when;  ///< of these entries only
+        bool all_files = false;       ///< which is that of all files, not of the folder shown
+        std::vector<Condition> when;  ///< only then, or of these entries only
     };
     std::string name;
     protocol::FrameStyle style = protocol::FrameStyle::framed;
@@ -66,7 +70,8 @@ struct Frame {
     bool chunk = false;         ///< no lines: the block of a file that transfer.block read
     std::optional<Channel> to;  ///< nothing: the channel that asked; the main line, if nobody asked
     std::optional<std::size_t>
-        cell;  ///< of a board that queues codes: where its arguments are kept until it leaves
+        cell;                 ///< of a board that queues codes: where its arguments are kept until it leaves
+    bool everywhere = false;  ///< to the main line and to the USB side
     std::vector<Line> lines;
     std::vector<ActionCall> then;  ///< done when it is queued
     std::vector<const Field*>
@@ -147,6 +152,7 @@ class Profile {
   public:
     std::string name;
     std::string title;
+    std::string screen;              ///< name of the screen that is part of the board; empty: it has none
     std::vector<std::string> files;  ///< what it was read from, base first
     LineConfig line;
     SimTime tick{50'000};
@@ -171,7 +177,8 @@ class Profile {
 
     /// Rules for a request on the main line and the network, or of the USB host; null when there are none.
     const std::vector<Rule>* rules_for(Channel channel, const protocol::Command& command) const {
-        return find(channel == Channel::host ? host_requests : requests, command);
+        const bool host = channel == Channel::host || line.framing == Framing::commands;
+        return find(host ? host_requests : requests, command);
     }
 
     struct RequestTable {
@@ -183,6 +190,7 @@ class Profile {
     };
     RequestTable requests;
     RequestTable host_requests;
+    std::vector<std::string> urgent;  ///< numbers of the M codes whose rules are carried out at once
 
     static std::uint32_t code_key(char letter, std::uint32_t number) {
         return static_cast<std::uint32_t>(static_cast<unsigned char>(letter)) << 16U | (number & 0xFFFFU);

@@ -2,6 +2,7 @@
 #include <array>
 #include <utility>
 
+#include "emulator/behaviour/frame_loader.h"
 #include "emulator/behaviour/kind.h"
 #include "emulator/behaviour/line_loader.h"
 #include "emulator/behaviour/machine_loader.h"
@@ -9,7 +10,6 @@
 #include "emulator/behaviour/profile.h"
 #include "emulator/behaviour/reader.h"
 #include "emulator/behaviour/rule_compiler.h"
-#include "emulator/behaviour/wire_text.h"
 #include "protocol/command.h"
 
 namespace fauxboard::behaviour {
@@ -29,10 +29,6 @@ class Loader {
     void load_head(ObjectReader& root);
     void load_variables(const Json& node, const std::string& pointer);
     void name_frames(const Json& node, const std::string& pointer);
-    void load_frame(const Json& node, const std::string& pointer, Frame& frame);
-    void load_frame_lines(const Json& node, const std::string& pointer, Frame& frame);
-    void load_cell(ObjectReader& reader, Frame& frame);
-    FrameTemplate compile(const Json& node, const std::string& pointer, bool loop);
     void load_schedule(const Json& node, const std::string& pointer);
     void load_slot(const Json& node, const std::string& pointer);
     std::vector<std::size_t> watch(const Json& node, const std::string& pointer, std::size_t frame);
@@ -46,7 +42,6 @@ class Loader {
     Names names_;
     Names request_names_;
     FrameIndex frame_index_;
-    FrameIndex cells_;
     protocol::FrameStyle style_{};  ///< of frames that do not say theirs
     std::shared_ptr<Profile> profile_ = std::make_shared<Profile>();
     std::shared_ptr<machine::MachineConfig> machine_;
@@ -56,8 +51,9 @@ void Loader::load_head(ObjectReader& root) {
     root.required("name");
     root.text("name", profile_->name, 64);
     root.text("title", profile_->title, 256);
+    root.text("screen", profile_->screen, 256);
     root.get("extends");  // resolved before
-    constexpr std::array<std::string_view, 2> protocols{"smartto", "gcode"};
+    constexpr std::array<std::string_view, 3> protocols{"smartto", "gcode", "marlin"};
     std::size_t protocol = 0;
     root.required("protocol");
     root.choice("protocol", protocols, protocol);
@@ -66,6 +62,7 @@ void Loader::load_head(ObjectReader& root) {
     if (const Json* line = root.get("line")) {
         load_line(*line, root.pointer("line"), findings_, profile_->line, framed);
     }
+    profile_->line.framed = framed;
     style_ = framed ? protocol::FrameStyle::framed : protocol::FrameStyle::bare;
     if (const Json* transmit = root.get("transmit")) {
         load_transmit(*transmit, root.pointer("transmit"), findings_, *profile_);
@@ -89,6 +86,7 @@ void Loader::load_variables(const Json& node, const std::string& pointer) {
         reader.number("max", info.max, -1e12, 1e12);
         reader.number("value", info.initial, std::min(info.min, info.max), std::max(info.min, info.max));
         reader.text("help", info.help);
+        reader.boolean("stored", info.stored);
         reader.finish();
         if (info.min > info.max) {
             findings_.add(all.pointer(name), "min is above max");
@@ -111,111 +109,6 @@ void Loader::name_frames(const Json& node, const std::string& pointer) {
         frame_index_.emplace(name, profile_->frames.size());
         profile_->frames.emplace_back().name = name;
     }
-}
-
-FrameTemplate Loader::compile(const Json& node, const std::string& pointer, bool loop) {
-    if (!node.is_string()) {
-        findings_.add(pointer, found(node) + "; expected a text, the line with {places} for its values");
-        return {};
-    }
-    Names names = request_names_;
-    names.loop = loop;
-    const auto bytes = to_wire(node.get_ref<const std::string&>());
-    if (!bytes) {
-        findings_.add(pointer, "a character that is not one byte on the wire (beyond U+00FF)");
-        return {};
-    }
-    try {
-        return FrameTemplate(*bytes, names);
-    } catch (const ExpressionError& error) {
-        findings_.add(pointer, error.what(), error.nearest);
-        return {};
-    }
-}
-
-void Loader::load_frame_lines(const Json& node, const std::string& pointer, Frame& frame) {
-    if (!node.is_array() || node.empty() || node.size() > 64) {
-        findings_.add(pointer, found(node) + "; expected a list of 1 to 64 lines");
-        return;
-    }
-    for (std::size_t i = 0; i < node.size(); ++i) {
-        const std::string at = pointer + "/" + std::to_string(i);
-        Frame::Line line;
-        if (node[i].is_object()) {
-            ObjectReader reader(node[i], at, findings_);
-            constexpr std::array<std::string_view, 1> lists{"card.entries"};
-            std::size_t which = 0;
-            reader.required("for_each");
-            reader.choice("for_each", lists, which);
-            reader.required("line");
-            if (const Json* text = reader.get("line")) {
-                line.text = compile(*text, reader.pointer("line"), true);
-            }
-            if (const Json* when = reader.get("when")) {
-                Names names = request_names_;
-                names.loop = true;
-                line.when = RuleCompiler(findings_, names, frame_index_, *machine_)
-                                .conditions(*when, reader.pointer("when"));
-            }
-            line.for_each_entry = true;
-            reader.finish();
-        } else {
-            line.text = compile(node[i], at, false);
-        }
-        frame.lines.push_back(std::move(line));
-    }
-}
-
-void Loader::load_cell(ObjectReader& reader, Frame& frame) {
-    std::string name;
-    reader.text("cell", name, 64);
-    if (!name.empty()) {
-        frame.cell = cells_.emplace(name, cells_.size()).first->second;
-        profile_->code_cells = cells_.size();
-    }
-}
-
-void Loader::load_frame(const Json& node, const std::string& pointer, Frame& frame) {
-    frame.style = style_;
-    if (!node.is_object()) {
-        frame.lines.push_back({compile(node, pointer, false), false, {}});
-        return;
-    }
-    ObjectReader reader(node, pointer, findings_);
-    constexpr std::array<std::string_view, 4> styles{"framed", "bare", "star_only", "unfinished"};
-    auto style = static_cast<std::size_t>(frame.style);
-    reader.choice("style", styles, style);
-    frame.style = static_cast<protocol::FrameStyle>(style);
-    constexpr std::array<std::string_view, 3> ends{"crlf", "lf", "none"};
-    std::size_t end = 0;
-    reader.choice("end", ends, end);
-    frame.end = static_cast<protocol::LineEnd>(end);
-    constexpr std::array<std::string_view, channel_count> channels{"main", "host", "network"};
-    std::size_t to = channels.size();
-    reader.choice("to", channels, to);
-    if (to < channels.size()) {
-        frame.to = static_cast<Channel>(to);
-    }
-    load_cell(reader, frame);
-    const Json* text = reader.get("line");
-    const Json* lines = reader.get("lines");
-    reader.boolean("chunk", frame.chunk);
-    if (frame.chunk) {
-        if (text != nullptr || lines != nullptr) {
-            findings_.add(pointer, "a frame with \"chunk\" has no lines of its own");
-        }
-    } else if ((text == nullptr) == (lines == nullptr)) {
-        findings_.add(pointer, "expected either \"line\" or \"lines\"");
-    } else if (text != nullptr) {
-        frame.lines.push_back({compile(*text, reader.pointer("line"), false), false, {}});
-    } else {
-        load_frame_lines(*lines, reader.pointer("lines"), frame);
-    }
-    if (const Json* then = reader.get("then")) {
-        RuleCompiler compiler(findings_, names_, frame_index_, *machine_);
-        frame.then = compiler.actions(*then, reader.pointer("then"));
-    }
-    reader.finish();
 }
 
 std::vector<std::size_t> Loader::watch(const Json& node, const std::string& pointer, std::size_t frame) {
@@ -328,6 +221,10 @@ void Loader::load_requests(const Json& node, const std::string& pointer, Profile
             continue;
         }
         std::vector<Rule> rules = compiler.rules(value, at);
+        if (command->letter == 'M' &&
+            std::any_of(rules.begin(), rules.end(), [](const Rule& rule) { return rule.at_once; })) {
+            profile_->urgent.push_back(std::to_string(command->number));
+        }
         if (command->letter != 0) {
             table.codes[Profile::code_key(command->letter, command->number)] = std::move(rules);
         } else {
@@ -398,9 +295,19 @@ std::shared_ptr<const Profile> Loader::load() {
     section("frames", [&](const Json& n, const std::string& p) { name_frames(n, p); });
     section("frames", [&](const Json& n, const std::string& p) {
         ObjectReader frames(n, p, findings_);
+        const bool commands = profile_->line.framing == Framing::commands;
+        const FrameContext context{n,
+                                   frame_index_,
+                                   names_,
+                                   request_names_,
+                                   *machine_,
+                                   style_,
+                                   commands ? protocol::LineEnd::lf : protocol::LineEnd::crlf};
+        FrameLoader loader(findings_, context);
         for (Frame& frame : profile_->frames) {
-            load_frame(n[frame.name], frames.pointer(frame.name), frame);
+            loader.load(n[frame.name], frames.pointer(frame.name), frame);
         }
+        profile_->code_cells = loader.cells();
     });
     section("defaults", [&](const Json& n, const std::string& p) { load_defaults(n, p); });
     section("boot", [&](const Json& n, const std::string& p) {

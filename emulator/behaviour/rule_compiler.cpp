@@ -320,6 +320,9 @@ Rule RuleCompiler::rule(const Json& node, const std::string& pointer) {
     if (const Json* frames = reader.get("send")) {
         out.send = sends(*frames, reader.pointer("send"));
     }
+    if (const Json* frames = reader.get("after")) {
+        out.after = sends(*frames, reader.pointer("after"));
+    }
     reader.boolean("at_once", out.at_once);
     reader.boolean("until_done", out.until_done);
     reader.finish();

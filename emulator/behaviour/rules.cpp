@@ -87,6 +87,7 @@ void run_action(const ActionCall& call, const Scope& scope, const std::vector<Va
         return;
     }
     context.command = scope.command;
+    context.infos = &variables;
     const std::size_t count = call.args.size();
     std::array<Value, 2> few;  // clearing room for the most there can be would cost more than the action
     if (count <= few.size()) {

@@ -8,6 +8,7 @@
 
 #include "emulator/behaviour/actions.h"
 #include "emulator/behaviour/operand.h"
+#include "emulator/behaviour/variables.h"
 
 namespace fauxboard::behaviour {
 
@@ -41,15 +42,6 @@ struct ActionCall {
     bool add = false;
 };
 
-/// Bounds of one of the profile's own variables.
-struct VariableInfo {
-    std::string name;
-    std::string help;
-    double initial = 0;
-    double min = 0;
-    double max = 0;
-};
-
 /// Carries out one call. A parameter that an argument needs and the line lacks skips the call, as the real
 /// board leaves alone what it was not told.
 void run_action(const ActionCall& call, const Scope& scope, const std::vector<VariableInfo>& variables,
@@ -68,7 +60,8 @@ struct Rule {
     std::vector<Condition> when;
     std::vector<ActionCall> actions;
     std::vector<Send> send;
-    bool at_once = false;  ///< of the USB host: carried out as it comes in, ahead of what waits
+    std::vector<Send> after;  ///< of the USB host: said when the command is over, before it is acknowledged
+    bool at_once = false;     ///< of the USB host: carried out as it comes in, ahead of what waits
     /// Of the main line: nothing else is taken up and nothing leaves until the moves and waits it began are
     /// over; then what it sends goes.
     bool until_done = false;

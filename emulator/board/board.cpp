@@ -1,4 +1,4 @@
-#include "emulator/board/board.h"
+#include "emulator/board/board_front.h"
 
 #include <algorithm>
 #include <numeric>
@@ -21,12 +21,11 @@ using machine::never;
 constexpr std::size_t outbox_bytes = 12 * 1024;
 constexpr std::size_t outbox_messages = 128;
 constexpr std::size_t inbox_bytes = 8 * 1024;
-/// Of the USB side: Marlin's queue of four lines of 96 bytes, and the ring of 128 bytes behind its port.
-constexpr std::size_t host_inbox_bytes = 4 * 96 + 128;
-constexpr std::size_t host_inbox_lines = 8;
+/// Of a line that speaks as a host. The firmware has room for a few, and its USB holds the rest back in the
+/// computer, so that nothing is lost; here it waits in the board.
+constexpr std::size_t command_bytes = 32 * 1024;
+constexpr std::size_t command_count = 1024;
 constexpr std::size_t first_output = 2 * line_bytes;
-/// Events that one step may work off: a profile whose events raise each other must come to an end.
-constexpr int event_limit = 256;
 
 /// A code ("M2134"), not a word ("log"): words are no commands to the board and take no tick. The recorded
 /// one answered an M2134 that came 0.8 ms behind a log line as fast as one that came alone.
@@ -44,9 +43,17 @@ Board::Board(std::shared_ptr<const behaviour::Profile> profile, machine::Service
       inbox_(inbox_bytes, profile_->line.queue_lines),
       outbox_(outbox_bytes, outbox_messages),
       codes_(profile_->queue_codes, profile_->code_cells),
-      host_inbox_(host_inbox_bytes, host_inbox_lines),
       scratch_(scratch_bytes) {
     port(Channel::main).connected = true;
+    if (profile_->line.framing == behaviour::Framing::commands) {
+        machine_->commands.of_files = this;
+    }
+    for (const Channel channel : {Channel::main, Channel::host}) {
+        if (takes_commands(channel)) {
+            port(channel).commands = CommandQueue(command_bytes, command_count);
+            port(channel).splitter.set_cutting(true);
+        }
+    }
     port(Channel::main).output = OutputBuffer(first_output);
     if (services.eeprom != nullptr) {
         machine_->eeprom_image = services.eeprom->load().value_or(std::string{});
@@ -77,11 +84,13 @@ void Board::power_on(SimTime now) {
     ring_.reset();
     held_ = {};
     network_ = NetworkOutbox();
-    host_inbox_.clear();
     unfinished_due_ = never;
-    asker_ = Channel::main;
+    asker_.reset();
+    after_ = nullptr;
     for (Port& each : ports_) {
         each.splitter.reset();
+        each.commands.clear();
+        each.deaf_at = nowhen;
     }
     machine_->power_on(now);
     for (std::size_t i = 0; i < variables_.size(); ++i) {
@@ -91,17 +100,19 @@ void Board::power_on(SimTime now) {
     for (const behaviour::ActionCall& call : profile_->defaults) {
         behaviour::run_action(call, scope(), profile_->variables, context);
     }
-    machine_->factory_image = behaviour::make_image(*machine_);
+    const behaviour::Variables kept{variables_, profile_->variables};
+    machine_->factory_image = behaviour::make_image(*machine_, &kept);
     if (machine_->eeprom_image.empty()) {
         machine_->eeprom_image = machine_->factory_image;
     }
-    behaviour::load_fields(*machine_, {});
+    behaviour::load_fields(*machine_, {}, &kept);
     machine_->events.clear();  // what setting up raised is nobody's business
     wheel_.power_on(now);
     wheel_.take_as_told(*machine_);
     for (const Send& entry : profile_->boot) {
         send(entry, scope());
     }
+    call_front([now](Front& front, ActionContext& context) { front.power_on(now, context); });
 }
 
 void Board::reload(std::shared_ptr<const behaviour::Profile> profile) {
@@ -126,6 +137,7 @@ void Board::reload(std::shared_ptr<const behaviour::Profile> profile) {
     codes_ = CodeQueue(profile_->queue_codes, profile_->code_cells);
     held_ = {};
     told_.clear();
+    after_ = nullptr;
 }
 
 void Board::receive(SimTime now, std::string_view bytes, Channel channel) {
@@ -171,11 +183,16 @@ void Board::tell_received(Channel channel, std::string_view line, Verdict verdic
     }
 }
 
+void Board::hear(SimTime now, std::string_view line) {
+    catch_up(now);
+    take_line(Channel::main, line);
+}
+
 void Board::take_line(Channel channel, std::string_view line) {
     ++counters_.lines_received;
-    if (channel == Channel::host) {
+    if (takes_commands(channel)) {
         machine_->hear_host(time_);
-        take_host_line(line);
+        take_command_line(channel, line);
         return;
     }
     std::string_view body;
@@ -213,52 +230,12 @@ bool Board::unframe(std::string_view line, std::string_view& body) const {
         return true;
     }
     if (profile_->line.framing != behaviour::Framing::frames) {
-        body = protocol::unframe_host_line(line).body;
+        body = protocol::unframe_host_line(protocol::without_remark(line)).body;
         return true;
     }
     const protocol::Unframed unframed = protocol::unframe(line, profile_->line.checksum);
     body = unframed.body;
     return unframed.fault == protocol::FrameFault::none;
-}
-
-/// After anything that may have changed the machine: events, and what the main loop lost by it.
-void Board::settle() {
-    asker_ = Channel::main;
-    if (!machine_->events.empty()) {
-        run_events();
-    }
-    if (machine_->take_reset()) {
-        power_on(time_);
-        return;
-    }
-    end_held();
-    if (const int rounds = machine_->loop.take_lost_rounds(); rounds > 0) {
-        wheel_.lose_rounds(rounds);
-    }
-    if (const SimTime stall = machine_->loop.take_stall(); stall > SimTime{0}) {
-        wheel_.stall(stall);
-    }
-    if (wheel_.frozen() && !profile_->schedule.frozen(scope())) {
-        wheel_.thaw(time_);
-    }
-}
-
-void Board::run_events() {
-    for (int i = 0; i < event_limit; ++i) {
-        const auto event = machine_->events.take();
-        if (!event) {
-            return;
-        }
-        if (options_.observer != nullptr) {
-            options_.observer->on_event(time_, *event);
-        }
-        const std::vector<Rule>& rules = profile_->rules_for(*event);
-        if (!rules.empty()) {
-            run_rules(rules, nullptr);
-        }
-    }
-    machine_->events.clear();
-    notice(Level::error, "the profile's events raise each other without end; the rest was dropped");
 }
 
 SimTime Board::next_tick() const {
@@ -283,7 +260,7 @@ SimTime Board::next_due() const {
     }
     const SimTime wheel =
         wheel_.next_slot() <= time_ ? wheel_.next_slot() : wheel_.next_due(scope(), machine_->restless());
-    return std::min({machine_->next_event(), next_tick(), wheel, unfinished_due_});
+    return std::min({machine_->next_event(), next_tick(), wheel, unfinished_due_, front_due()});
 }
 
 /// A time before which nothing is due, found without asking which of the wheel's slots may send.
@@ -291,7 +268,7 @@ SimTime Board::nothing_before() const {
     if (machine_->hung()) {
         return machine_->next_event();
     }
-    return std::min({machine_->next_event(), next_tick(), wheel_.next_slot(), unfinished_due_});
+    return std::min({machine_->next_event(), next_tick(), wheel_.next_slot(), unfinished_due_, front_due()});
 }
 
 /// Goes through the slots before `end`. Those passed over because nothing could come of them are among them,
@@ -330,9 +307,7 @@ void Board::run_tick() {
 
 SimTime Board::advance(SimTime now) {
     while (quiet()) {
-        if (!host_inbox_.empty()) {
-            run_host();  // what its output had no room for may go on
-        }
+        run_host();  // what its output had no room for may go on
         const SimTime due = next_due();
         if (due > now) {
             time_ = std::max(time_, now);
@@ -343,16 +318,31 @@ SimTime Board::advance(SimTime now) {
     return next_due();
 }
 
+/// Carries out what the machine asks of itself.
+void Board::run_own_requests() {
+    while (const auto line = machine_->take_request()) {
+        unasked_ = true;
+        execute(Channel::main, protocol::unframe_host_line(*line).body);
+        unasked_ = false;
+        settle();
+    }
+}
+
 void Board::step(SimTime due) {
     time_ = std::max(time_, due);
     machine_->advance(time_);
     settle();
     run_host();
+    run_own_requests();
     if (unfinished_due_ <= time_) {
         unfinished_due_ = never;
         port(Channel::main).splitter.end_line([this](std::string_view line) {
             take_line(Channel::main, line);
         });
+    }
+    if (!machine_->hung() && front_due() <= time_) {
+        call_front([this](Front& front, ActionContext& context) { front.advance(time_, context); });
+        settle();
     }
     run_slots(time_ + SimTime{1});
     if (!machine_->hung() && next_tick() <= time_) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -13,6 +14,8 @@
 #include "emulator/behaviour/notice.h"
 #include "emulator/behaviour/profile.h"
 #include "emulator/board/code_queue.h"
+#include "emulator/board/command_queue.h"
+#include "emulator/board/front.h"
 #include "emulator/board/message_queue.h"
 #include "emulator/board/network_outbox.h"
 #include "emulator/board/output_buffer.h"
@@ -22,6 +25,7 @@
 #include "emulator/machine/sim_time.h"
 #include "protocol/chitu_chunk.h"
 #include "protocol/framing.h"
+#include "protocol/host_line.h"
 
 namespace fauxboard::board {
 
@@ -69,6 +73,7 @@ struct Options {
     bool pacing = true;  ///< replies leave on the transmit tick; without it, at once
     std::uint64_t seed = 1;
     Observer* observer = nullptr;
+    Front* front = nullptr;  ///< outlives the board
 };
 
 /// Everything that was counted since the board was made.
@@ -91,7 +96,7 @@ struct Counters {
 /// each call take output(). Times never go back. advance() stops at the first output, so that every output
 /// has its exact time; call it before receive() for the same reason, though receive() makes up for what is
 /// overdue.
-class Board final : private behaviour::NoticeSink {
+class Board final : private behaviour::NoticeSink, private machine::FileCommands {
   public:
     Board(std::shared_ptr<const behaviour::Profile> profile, machine::Services services, Options options);
     ~Board() override;
@@ -107,6 +112,14 @@ class Board final : private behaviour::NoticeSink {
     /// Whether somebody is at the other end of a line: of the main line somebody always is, of the others at
     /// first nobody. What would go to nobody is not said.
     void connect(Channel channel, bool connected) { ports_[index(channel)].connected = connected; }
+    /// One whole line, line end left off, as if it had come on the main line: beside whatever half line is
+    /// arriving there.
+    void hear(SimTime now, std::string_view line);
+    /// Whether a line that speaks as a host has sent so much ahead that its sender should be held up, as USB
+    /// does it: what comes all the same is lost at some point, and told.
+    bool crowded(Channel channel) const { return port(channel).commands.crowded(); }
+    /// Commands of such a line that wait for their turn.
+    std::size_t waiting(Channel channel) const { return port(channel).commands.size(); }
     /// A datagram of the network from `peer`, a number that is not 0: one request, or a piece of the file
     /// that it uploads. Carried out at once; what the board says to it is for take_datagrams().
     void receive_datagram(SimTime now, std::uint64_t peer, std::string_view bytes);
@@ -163,11 +176,14 @@ class Board final : private behaviour::NoticeSink {
     std::span<const double> variables() const { return variables_; }
 
   private:
+    static constexpr SimTime nowhen{-1};
     /// One of the board's lines.
     struct Port {
         protocol::LineSplitter splitter;
         OutputBuffer output{0};
         bool connected = false;
+        CommandQueue commands{0, 0};  ///< of a line that speaks as a host
+        SimTime deaf_at = nowhen;     ///< a bad line came at that moment: what came with it is thrown away
     };
     static constexpr std::size_t index(Channel channel) { return static_cast<std::size_t>(channel); }
     Port& port(Channel channel) { return ports_[index(channel)]; }
@@ -175,11 +191,23 @@ class Board final : private behaviour::NoticeSink {
 
     void notice(Level level, std::string_view text) override;
     void take_line(Channel channel, std::string_view line);
-    void take_host_line(std::string_view line);
+    bool takes_commands(Channel channel) const;
+    protocol::HostLineRules host_rules() const;
+    protocol::HostLineFault judge(const protocol::HostLine& line, std::int64_t last, bool writing) const;
+    std::string urgent_command(std::string_view line, const protocol::HostLine& framed,
+                               protocol::HostLineFault fault) const;
+    void take_command_line(Channel channel, std::string_view bytes);
+    bool carry_out(std::string_view command, char letter, int code) override;
+    void complain(Channel channel, machine::EventId event);
+    bool begin_command();
+    void carry_out(Channel channel, std::string_view command, bool acted);
     void tell_received(Channel channel, std::string_view line, Verdict verdict);
     void run_host();
+    void run_own_requests();
     bool unframe(std::string_view line, std::string_view& body) const;
-    void execute(Channel channel, std::string_view body);
+    /// Whether it was answered with its acknowledgement. `begun`: it is the command that HostCommands began.
+    bool execute(Channel channel, std::string_view body, bool begun = false);
+    std::optional<Channel> asker_on(Channel channel) const;
     void take_piece(std::uint64_t peer, const protocol::Chunk& chunk);
     machine::Transfer::Mishap mishap();
     void put_datagrams(std::span<char> message, bool block);
@@ -188,8 +216,16 @@ class Board final : private behaviour::NoticeSink {
     void end_held();
     bool run_rules(const std::vector<behaviour::Rule>& rules, const protocol::Command* command);
     void run_events();
-    void settle();
+    template <class Call>
+    void call_front(Call&& call);
+    SimTime front_due() const {
+        return options_.front == nullptr ? machine::never : options_.front->next_due(*machine_);
+    }
+    void settle(std::optional<Channel> asker = std::nullopt);
     void send(const behaviour::Send& send, const behaviour::Scope& scope);
+    std::size_t room_for(const behaviour::Frame& frame);
+    void send_to(Channel to, const behaviour::Send& send, const behaviour::Scope& scope);
+    void say_after();
     /// A message while it is written.
     struct Draft {
         std::span<char> room;
@@ -232,8 +268,12 @@ class Board final : private behaviour::NoticeSink {
         std::string body;
     };
     Held held_;
-    MessageQueue host_inbox_;        ///< of the USB side
-    Channel asker_ = Channel::main;  ///< whom a frame goes to that does not say it itself
+    std::optional<Channel>
+        asker_;              ///< whom a frame goes to that does not say it itself; nothing: nobody asked
+    bool unasked_ = false;   ///< a request is the machine's own: nobody is to be answered
+    bool muted_ = false;     ///< a file's command: nobody hears what is for whoever asked
+    bool answered_ = false;  ///< what is being carried out has been acknowledged by its answer
+    const behaviour::Rule* after_ = nullptr;  ///< of the command that runs: what is said when it is over
     std::vector<char> scratch_;
     std::vector<double> variables_;
     Counters counters_;

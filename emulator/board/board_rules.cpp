@@ -1,6 +1,9 @@
+// What a request or an event makes the board do: the profile's rules, and what comes of them.
+
+#include <algorithm>
 #include <utility>
 
-#include "emulator/board/board.h"
+#include "emulator/board/board_front.h"
 #include "emulator/machine/event_rows.h"
 #include "protocol/command.h"
 
@@ -13,36 +16,74 @@ using behaviour::Scope;
 using behaviour::Send;
 
 constexpr std::size_t told_limit = 256;
+/// Events that one step may work off: a profile whose events raise each other must come to an end.
+constexpr int event_limit = 256;
 
 }  // namespace
 
-void Board::execute(Channel channel, std::string_view body) {
+bool Board::execute(Channel channel, std::string_view body, bool begun) {
     if (channel == Channel::main && !profile_->line.codes.empty()) {
         const std::size_t code = body.find_first_of(profile_->line.codes);
         if (code == std::string_view::npos) {
-            return;  // nothing in it that this board looks for
+            return false;  // nothing in it that this board looks for
         }
         body.remove_prefix(code);
     }
     protocol::Command command;
-    if (!protocol::parse_command(body, command)) {
-        return;  // a frame around nothing
+    const bool whole =
+        begun ? protocol::parse_host_command(body, command) : protocol::parse_command(body, command);
+    if (!whole) {
+        return false;  // a frame around nothing
     }
     const std::vector<Rule>* rules = profile_->rules_for(channel, command);
-    asker_ = channel == Channel::network ? channel : Channel::main;
-    if (rules == nullptr) {
-        if (channel == Channel::host && machine_->host_side().run_code()) {
-            return;
-        }
-        ++counters_.unknown_codes;
-        report_unknown(command.word, "is not in the profile");
-        if (channel == Channel::host) {
-            machine_->events.raise(machine::event("host.unknown"));
-        }
-    } else if (!run_rules(*rules, &command)) {
-        ++counters_.unmatched;
-        report_unknown(body, "has parameters that no rule of the profile is for");
+    asker_ = asker_on(channel);
+    answered_ = false;
+    if ((rules != nullptr && run_rules(*rules, &command)) ||
+        (begun && command.letter != 0 && machine_->host_side().run_code(false))) {
+        return answered_;
     }
+    ++(rules == nullptr ? counters_.unknown_codes : counters_.unmatched);
+    report_unknown(
+        rules == nullptr ? command.word : body,
+        rules == nullptr ? "is not in the profile" : "has parameters that no rule of the profile is for");
+    if (begun) {
+        machine_->events.raise(machine::event("host.unknown"));
+    }
+    return answered_;
+}
+
+/// A command of a job's file: by the rules of the lines that speak as hosts. Replies go nowhere, as on a
+/// board with several lines, but on one that has a single one they are seen.
+bool Board::carry_out(std::string_view text, char letter, int code) {
+    const auto key = behaviour::Profile::code_key(letter, static_cast<std::uint32_t>(std::max(code, 0)));
+    const std::vector<Rule>* rules = code < 0 ? nullptr : profile_->host_requests.codes.find(key);
+    protocol::Command command;
+    const std::string_view bare = text.substr(0, text.find_first_of(";*"));
+    const std::size_t start = bare.find(letter);
+    if (rules == nullptr || start == std::string_view::npos ||
+        !protocol::parse_host_command(bare.substr(start), command)) {
+        return false;
+    }
+    const bool main = port(Channel::main).connected;
+    const auto asker = std::exchange(asker_, main ? Channel::main : Channel::host);
+    const bool both = main && port(Channel::host).connected;
+    if (both) {
+        asker_.reset();
+    }
+    muted_ = both;
+    const Rule* const after = after_;
+    const bool done = run_rules(*rules, &command);
+    after_ = after;  // which is of the command of a line, if one is under way
+    muted_ = false;
+    asker_ = asker;
+    return done;
+}
+
+/// Whom a frame goes to that does not say it itself, when it was asked for on `channel`: on a board with a
+/// screen, the screen.
+std::optional<Channel> Board::asker_on(Channel channel) const {
+    const bool host_like = profile_->line.framing == behaviour::Framing::commands;
+    return channel == Channel::network || host_like ? channel : Channel::main;
 }
 
 void Board::report_unknown(std::string_view word, std::string_view why) {
@@ -69,7 +110,9 @@ void Board::run_rule(const Rule& rule, const Scope& here) {
     for (const behaviour::ActionCall& call : rule.actions) {
         behaviour::run_action(call, here, profile_->variables, context);
     }
-    if (context.reset) {
+    if (context.reset && machine_->commands.begun != nullptr) {
+        machine_->request_reset(machine_->restart);  // from inside a command: when it is over
+    } else if (context.reset) {
         power_on(time_);
         return;
     }
@@ -80,6 +123,9 @@ void Board::run_rule(const Rule& rule, const Scope& here) {
     }
     for (const Send& entry : rule.send) {
         send(entry, here);
+    }
+    if (!rule.after.empty()) {
+        after_ = &rule;
     }
 }
 
@@ -96,6 +142,52 @@ void Board::end_held() {
             send(entry, here);
         }
     }
+}
+
+/// After anything that may have changed the machine: events, and what the main loop lost by it.
+/// What is said goes to whoever asked, or whose command is being carried out.
+void Board::settle(std::optional<Channel> asker) {
+    if (!machine_->events.empty()) {
+        const bool runs = !asker && machine_->host_side().running();
+        asker = runs ? static_cast<Channel>(machine_->host_side().speaker) : asker;
+        asker_ = asker ? asker_on(*asker) : std::nullopt;
+        run_events();
+    }
+    asker_.reset();
+    machine_->die_if_told();
+    if (machine_->take_reset()) {
+        power_on(time_);
+        return;
+    }
+    end_held();
+    if (const int rounds = machine_->loop.take_lost_rounds(); rounds > 0) {
+        wheel_.lose_rounds(rounds);
+    }
+    if (const SimTime stall = machine_->loop.take_stall(); stall > SimTime{0}) {
+        wheel_.stall(stall);
+    }
+    if (wheel_.frozen() && !profile_->schedule.frozen(scope())) {
+        wheel_.thaw(time_);
+    }
+}
+
+void Board::run_events() {
+    for (int i = 0; i < event_limit; ++i) {
+        const auto event = machine_->events.take();
+        if (!event) {
+            return;
+        }
+        if (options_.observer != nullptr) {
+            options_.observer->on_event(time_, *event);
+        }
+        const std::vector<Rule>& rules = profile_->rules_for(*event);
+        if (!rules.empty()) {
+            run_rules(rules, nullptr);
+        }
+        call_front([&](Front& front, ActionContext& context) { front.on_event(time_, *event, context); });
+    }
+    machine_->events.clear();
+    notice(Level::error, "the profile's events raise each other without end; the rest was dropped");
 }
 
 }  // namespace fauxboard::board

@@ -15,29 +15,46 @@ using behaviour::Send;
 
 /// Of the longest message the last lines must always fit; entries before them may be left out.
 constexpr std::size_t closing_room = 256;
+/// What stands in a line beside the names of its entry.
+constexpr std::size_t around_entry = 64;
 /// A reply to the USB side that begins so is all the acknowledgement its command gets.
 constexpr std::string_view acknowledgement = "ok";
 
 }  // namespace
 
 void Board::send(const Send& entry, const Scope& here) {
-    if (machine_->hung() || !behaviour::all_hold(entry.when, here)) {
+    if (unasked_ || machine_->hung() || !behaviour::all_hold(entry.when, here)) {
         return;
     }
     const Frame& frame = profile_->frames[entry.frame];
-    const Channel to = frame.to.value_or(asker_);
+    const std::optional<Channel> to = frame.everywhere ? std::nullopt : frame.to ? frame.to : asker_;
+    const bool host_like = profile_->line.framing == behaviour::Framing::commands;
+    if (muted_ && !to && !frame.everywhere) {
+        return;
+    }
+    if (to || !(frame.everywhere || host_like)) {
+        send_to(to.value_or(Channel::main), entry, here);
+        return;
+    }
+    send_to(Channel::main, entry, here);
+    send_to(Channel::host, entry, here);
+}
+
+void Board::send_to(Channel to, const Send& entry, const Scope& here) {
+    const Frame& frame = profile_->frames[entry.frame];
     if (to == Channel::network ? !network_.asking() : !port(to).connected) {
         return;
     }
-    if (profile_->queue_codes != 0 && to == Channel::main && !entry.now && options_.pacing) {
+    const bool paced = options_.pacing && to == Channel::main && !takes_commands(to);
+    if (profile_->queue_codes != 0 && paced && !entry.now) {
         queue(entry, here);
         return;
     }
     for (unsigned i = 0; i < entry.times; ++i) {
-        const bool at_once = to != Channel::network && (entry.now || !options_.pacing || to != Channel::main);
+        const bool at_once = to != Channel::network && (entry.now || !paced);
         const bool short_one = frame.lines.size() == 1 && !frame.lines[0].for_each_entry;
         OutputBuffer& output = port(to).output;
-        Draft draft{at_once ? output.room(short_one ? line_bytes : scratch_bytes)
+        Draft draft{at_once ? output.room(short_one ? line_bytes : room_for(frame))
                             : std::span<char>(scratch_)};
         compose(frame, here, draft);
         said(entry.frame, here);
@@ -51,9 +68,7 @@ void Board::send(const Send& entry, const Scope& here) {
         } else if (at_once) {
             output.grow(draft.size);
             counters_.lines_sent += draft.lines;
-            if (to == Channel::host && message.starts_with(acknowledgement)) {
-                machine_->host_side().acknowledge();
-            }
+            answered_ = answered_ || (takes_commands(to) && message.starts_with(acknowledgement));
             tell_sent(to, message);
         } else if (!put_in_queue(message)) {
             ++counters_.messages_lost;
@@ -121,6 +136,19 @@ void Board::emit_code(std::size_t id) {
     emit({draft.room.data(), draft.size});
 }
 
+/// Room for the longest this message can be: of a list that goes straight out, all of it.
+std::size_t Board::room_for(const Frame& frame) {
+    std::size_t bytes = scratch_bytes;
+    for (const Frame::Line& line : frame.lines) {
+        if (line.all_files) {
+            for (const machine::CardEntry& entry : machine_->files()) {
+                bytes += entry.name.size() + entry.long_name.size() + around_entry;
+            }
+        }
+    }
+    return bytes;
+}
+
 /// Adds a line to the draft, of which it may use the room up to `end`.
 void Board::compose_line(const Frame& frame, const behaviour::FrameTemplate& text, const Scope& here,
                          std::size_t end, Draft& draft) {
@@ -150,11 +178,13 @@ void Board::compose(const Frame& frame, const Scope& here, Draft& draft) {
     const std::size_t end = draft.room.size();
     for (const Frame::Line& line : frame.lines) {
         if (!line.for_each_entry) {
-            compose_line(frame, line.text, here, end, draft);
+            if (behaviour::all_hold(line.when, here)) {
+                compose_line(frame, line.text, here, end, draft);
+            }
             continue;
         }
         Scope inside = here;
-        for (const machine::CardEntry& entry : machine_->listing()) {
+        for (const machine::CardEntry& entry : line.all_files ? machine_->files() : machine_->listing()) {
             inside.entry = &entry;
             if (behaviour::all_hold(line.when, inside)) {
                 compose_line(frame, line.text, inside, std::max(draft.size, end - closing_room), draft);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "emulator/behaviour/wire_text.h"
+#include "protocol/annotate.h"
 
 namespace fauxboard::control {
 namespace {
@@ -30,18 +31,43 @@ Json event(std::string_view topic, SimTime now) {
 
 }  // namespace
 
+std::string_view refusal(board::Verdict verdict) {
+    switch (verdict) {
+        case board::Verdict::bad_frame:
+            return "bad frame";
+        case board::Verdict::queue_full:
+            return "queue full";
+        case board::Verdict::accepted:
+            break;
+    }
+    return {};
+}
+
 /// The event is made only if somebody wants it: lines pass at any rate.
-template <class Wanted, class Make>
-void Hub::tell(Wanted&& wanted, Make&& make) {
+template <class Make>
+void Hub::tell(TopicId topic, Make&& make) {
     Json made;
     for (Session* session : sessions_) {
-        if (wanted(session->subscriptions)) {
+        if (session->wants(topic)) {
             if (made.is_null()) {
                 made = make();
             }
             session->tell(made);
         }
     }
+}
+
+bool Hub::wanted(TopicId topic) const {
+    return std::any_of(sessions_.begin(), sessions_.end(),
+                       [topic](const Session* session) { return session->wants(topic); });
+}
+
+void Hub::publish(TopicId topic, SimTime now, const Json& members) {
+    tell(topic, [&] {
+        Json made = event(topics()[static_cast<std::size_t>(topic)].name, now);
+        made.update(members);
+        return made;
+    });
 }
 
 SimTime Hub::on_moved(SimTime now) {
@@ -53,13 +79,19 @@ SimTime Hub::on_moved(SimTime now) {
 }
 
 void Hub::on_link(SimTime now, std::string_view state, std::string_view why) {
-    tell([](const auto& s) { return s.link; },
-         [&] {
-             Json made = event("link", now);
-             made["state"] = state;
-             made["why"] = why;
-             return made;
-         });
+    publish(TopicId::link, now, {{"state", state}, {"why", why}});
+}
+
+void Hub::on_spoiled(SimTime now, const fault::Deed& deed) {
+    tell(TopicId::spoiled, [&] {
+        Json made = event("spoiled", now);
+        made["from"] = deed.direction == fault::Direction::to_board ? board::other_end(board::Channel::main)
+                                                                    : board::own_end(board::Channel::main);
+        made["line"] = behaviour::from_wire(deed.line);
+        made["kind"] = deed.kind;
+        made["fault"] = deed.fault;
+        return made;
+    });
 }
 
 void Hub::on_reload() {
@@ -75,39 +107,48 @@ void Hub::on_end() {
 }
 
 void Hub::on_received(SimTime now, board::Channel channel, std::string_view line, board::Verdict verdict) {
-    tell([](const auto& s) { return s.traffic; },
-         [&] {
-             Json made = event("traffic", now);
-             made["from"] = board::other_end(channel);
-             made["line"] = behaviour::from_wire(line);
-             if (verdict != board::Verdict::accepted) {
-                 made["refused"] = verdict == board::Verdict::bad_frame ? "bad frame" : "queue full";
-             }
-             return made;
-         });
+    tell_line(now, board::other_end(channel), line, protocol::Direction::to_board, verdict);
 }
 
 void Hub::on_sent(SimTime now, board::Channel channel, std::string_view line) {
-    tell([](const auto& s) { return s.traffic; },
-         [&] {
-             Json made = event("traffic", now);
-             made["from"] = board::own_end(channel);
-             made["line"] = behaviour::from_wire(line);
-             return made;
-         });
+    tell_line(now, board::own_end(channel), line, protocol::Direction::to_screen, board::Verdict::accepted);
+}
+
+/// With its words only for those who asked for them, and only once.
+void Hub::tell_line(SimTime now, std::string_view from, std::string_view line, protocol::Direction direction,
+                    board::Verdict verdict) {
+    Json bare;
+    Json with_words;
+    for (Session* session : sessions_) {
+        if (!session->wants(TopicId::traffic)) {
+            continue;
+        }
+        if (bare.is_null()) {
+            bare = event("traffic", now);
+            bare["from"] = from;
+            bare["line"] = behaviour::from_wire(line);
+            if (verdict != board::Verdict::accepted) {
+                bare["refused"] = refusal(verdict);
+            }
+        }
+        if (session->subscriptions.words && with_words.is_null()) {
+            with_words = bare;
+            with_words["words"] = protocol::explain(protocol::decode_line(line, direction));
+        }
+        session->tell(session->subscriptions.words ? with_words : bare);
+    }
 }
 
 void Hub::on_notice(SimTime now, board::Level level, std::string_view text) {
     if (heard_ != nullptr && heard_->size() < most_heard) {
         heard_->push_back({{"level", name(level)}, {"text", text}});
     }
-    tell([](const auto& s) { return s.notices; },
-         [&] {
-             Json made = event("notice", now);
-             made["level"] = name(level);
-             made["text"] = text;
-             return made;
-         });
+    tell(TopicId::notices, [&] {
+        Json made = event("notice", now);
+        made["level"] = name(level);
+        made["text"] = text;
+        return made;
+    });
 }
 
 }  // namespace fauxboard::control

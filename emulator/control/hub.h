@@ -6,8 +6,13 @@
 
 #include "emulator/board/board.h"
 #include "emulator/control/session.h"
+#include "emulator/fault/fault_line.h"
+#include "protocol/catalogue.h"
 
 namespace fauxboard::control {
+
+/// Why a line was not taken: "bad frame", "queue full"; empty when it was.
+std::string_view refusal(board::Verdict verdict);
 
 /// All clients of one board: hands them what passes. Is an observer of that board.
 class Hub final : public board::Observer {
@@ -22,6 +27,12 @@ class Hub final : public board::Observer {
     void on_link(SimTime now, std::string_view state, std::string_view why);
     /// A changed profile is in force.
     void on_reload();
+    /// A fault of the line has acted on `line`, which was as it is told; `to_board`: on its way there.
+    void on_spoiled(SimTime now, const fault::Deed& deed);
+    /// Whether any client has subscribed to it.
+    bool wanted(TopicId topic) const;
+    /// Tells those who have subscribed to it: {"event": its name, "t": ..., members...}.
+    void publish(TopicId topic, SimTime now, const Json& members);
     /// The run is over.
     void on_end();
 
@@ -50,8 +61,10 @@ class Hub final : public board::Observer {
     friend class Session;
     void add(Session& session) { sessions_.push_back(&session); }
     void remove(Session& session) { std::erase(sessions_, &session); }
-    template <class Wanted, class Make>
-    void tell(Wanted&& wanted, Make&& make);
+    template <class Make>
+    void tell(TopicId topic, Make&& make);
+    void tell_line(SimTime now, std::string_view from, std::string_view line, protocol::Direction direction,
+                   board::Verdict verdict);
 
     Target& target_;
     std::vector<Session*> sessions_;

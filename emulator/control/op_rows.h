@@ -13,6 +13,8 @@ using Answer = std::optional<Json>;
 std::span<const Op> value_ops();
 std::span<const Op> machine_ops();
 std::span<const Op> fault_ops();
+std::span<const Op> view_ops();
 std::span<const Op> session_ops();
+std::span<const Op> display_ops();
 
 }  // namespace fauxboard::control::rows

@@ -136,8 +136,8 @@ SimTime Call::time(std::string_view name, SimTime min, SimTime max) const {
 std::span<const Op> ops() {
     static const std::vector<Op> table = [] {
         std::vector<Op> all;
-        for (const auto part :
-             {rows::value_ops(), rows::machine_ops(), rows::fault_ops(), rows::session_ops()}) {
+        for (const auto part : {rows::value_ops(), rows::machine_ops(), rows::fault_ops(), rows::view_ops(),
+                                rows::display_ops(), rows::session_ops()}) {
             all.insert(all.end(), part.begin(), part.end());
         }
         return all;

@@ -63,8 +63,26 @@ struct Op {
 /// All, in the order of the reference.
 std::span<const Op> ops();
 
-/// What clients are told unasked.
+/// What clients can be told unasked.
+enum class TopicId : std::uint8_t {
+    state,
+    traffic,
+    notices,
+    link,
+    spoiled,
+    judged,
+    screen,
+    scenario,
+    drawing
+};
+
+constexpr std::uint32_t bit(TopicId topic) {
+    return std::uint32_t{1} << static_cast<unsigned>(topic);
+}
+
+/// In the order of TopicId.
 struct Topic {
+    TopicId id;
     std::string_view name;
     std::string_view help;
     std::string_view example;  ///< one line of it

@@ -1,6 +1,7 @@
 // What concerns the client and the run: subscribe, unsubscribe, status, quit.
 
-#include <algorithm>
+#include <fmt/format.h>
+
 #include <array>
 #include <chrono>
 
@@ -12,16 +13,35 @@ namespace fauxboard::control {
 namespace {
 
 constexpr std::array topic_table{
-    Topic{"state",
+    Topic{TopicId::state, "state",
           "values of fields: all at first, then those that changed, looked at each `every` of virtual time",
           R"({"event": "state", "t": 12.5, "fields": {"heaters.nozzle.true": 41.7}})"},
-    Topic{"traffic", "each line of the wire, as recordings have it; one that was not taken says why",
-          R"({"event": "traffic", "t": 12.5, "from": "screen", "line": "N-0 M105*10"})"},
     Topic{
-        "notices", "what a person wants to know: a clamped value, an unknown code, a lost message",
+        TopicId::traffic, "traffic",
+        "each line of the wire, as recordings have it; one that was not taken says why; with words, if asked",
+        R"({"event": "traffic", "t": 12.5, "from": "screen", "line": "N-0 M105*10"})"},
+    Topic{
+        TopicId::notices, "notices",
+        "what a person wants to know: a clamped value, an unknown code, a lost message",
         R"({"event": "notice", "t": 12.5, "level": "warning", "text": "M9 is not in the profile; ignored"})"},
-    Topic{"link", "somebody came to the tested line, or left it",
+    Topic{TopicId::link, "link", "somebody came to the tested line, or left it",
           R"({"event": "link", "t": 12.5, "state": "up", "why": "somebody opened /dev/pts/5"})"},
+    Topic{
+        TopicId::spoiled, "spoiled",
+        "a fault of the line has acted on this line, which is told as it was before",
+        R"({"event": "spoiled", "t": 12.5, "from": "board", "line": "N-0 L7*55", "kind": "drop", "fault": 1})"},
+    Topic{
+        TopicId::judged, "judged", "a line that a touch screen would not have taken as it was meant, and why",
+        R"({"event": "judged", "t": 12.5, "line": "N-0 L18 P26*32", "verdict": "would crash", "why": "..."})"},
+    Topic{
+        TopicId::screen, "screen",
+        "what the touch screen shows, each time it shows something else; as the op screen",
+        R"({"event": "screen", "t": 12.5, "screen": {"page": "Main", "title": "Main", "lines": [], "buttons": []}})"},
+    Topic{TopicId::scenario, "scenario",
+          "how the scenario stands, each time that it gets on; as the op scenario",
+          R"({"event": "scenario", "t": 12.5, "scenario": {"name": "home", "steps": [], "branches": []}})"},
+    Topic{TopicId::drawing, "drawing", "what the machine draws, as it grows; as the op drawing",
+          R"({"event": "drawing", "t": 12.5, "drawing": {"way": {"more": true, "layers": []}}})"},
 };
 
 }  // namespace
@@ -41,28 +61,44 @@ constexpr SimTime shortest_every = std::chrono::milliseconds(10);
 constexpr SimTime longest_every = std::chrono::hours(1);
 constexpr SimTime usual_every = std::chrono::milliseconds(500);
 
-void check_topic(const std::string& topic) {
+TopicId topic_of(const Call& call) {
+    const auto& topic = call.at("topic").get_ref<const std::string&>();
     std::vector<std::string_view> names;
     for (const Topic& each : topics()) {
+        if (each.name == topic) {
+            return each.id;
+        }
         names.push_back(each.name);
     }
-    if (std::find(names.begin(), names.end(), topic) == names.end()) {
+    throw ControlError(ErrorCode::bad_request,
+                       fmt::format("There is no such topic; expected one of {}.", fmt::join(names, ", ")),
+                       behaviour::nearest(topic, names));
+}
+
+/// Parameters of one topic alone.
+void check_extras(const Call& call, TopicId topic) {
+    const bool of_state = call.find("fields") != nullptr || call.find("every") != nullptr;
+    if (of_state && topic != TopicId::state) {
+        throw ControlError(ErrorCode::bad_request, "\"fields\" and \"every\" are for the topic state only.");
+    }
+    const Json* words = call.find("words");
+    if (words != nullptr && (topic != TopicId::traffic || !words->is_boolean())) {
         throw ControlError(ErrorCode::bad_request,
-                           "There is no such topic; expected state, traffic, notices or link.",
-                           behaviour::nearest(topic, names));
+                           "\"words\" is true or false, and for the topic traffic only.");
     }
 }
 
 Answer subscribe(const Call& call) {
-    const auto topic = call.at("topic").get<std::string>();
-    check_topic(topic);
+    const TopicId topic = topic_of(call);
+    check_extras(call, topic);
     Session::Subscriptions& own = call.session.subscriptions;
-    if (topic != "state") {
-        if (call.find("fields") != nullptr || call.find("every") != nullptr) {
-            throw ControlError(ErrorCode::bad_request,
-                               "\"fields\" and \"every\" are for the topic state only.");
+    if (topic != TopicId::state) {
+        own.topics |= bit(topic);
+        if (topic == TopicId::traffic) {
+            const Json* words = call.find("words");
+            own.words = words != nullptr && words->get<bool>();
         }
-        (topic == "traffic" ? own.traffic : topic == "notices" ? own.notices : own.link) = true;
+        call.target.on_wanted();
         return Json::object();
     }
     std::vector<Place> places;
@@ -77,7 +113,7 @@ Answer subscribe(const Call& call) {
     own.places = std::move(places);
     own.last.assign(own.places.size(), Json::object());  // which no value is
     own.due = call.now;
-    own.state = true;
+    own.topics |= bit(topic);
     return Json::object();
 }
 
@@ -87,14 +123,11 @@ Answer unsubscribe(const Call& call) {
         own = {};
         return Json::object();
     }
-    const auto topic = call.at("topic").get<std::string>();
-    check_topic(topic);
-    if (topic == "state") {
-        own.state = false;
+    const TopicId topic = topic_of(call);
+    own.topics &= ~bit(topic);
+    if (topic == TopicId::state) {
         own.places.clear();
         own.last.clear();
-    } else {
-        (topic == "traffic" ? own.traffic : topic == "notices" ? own.notices : own.link) = false;
     }
     return Json::object();
 }
@@ -132,9 +165,10 @@ Answer quit(const Call& call) {
 }
 
 constexpr std::array subscribe_params{
-    Param{"topic", text, true, "one of state, traffic, notices, link"},
+    Param{"topic", text, true, "one of those below"},
     Param{"fields", names, false, "state: as for get; all if left out"},
-    Param{"every", time, false, "state: how often to look, 10ms to 1h of virtual time; 500ms if left out"}};
+    Param{"every", time, false, "state: how often to look, 10ms to 1h of virtual time; 500ms if left out"},
+    Param{"words", any, false, "traffic: true adds what each line means"}};
 constexpr std::array unsubscribe_params{Param{"topic", text, false, "all if left out"}};
 
 constexpr std::array table{

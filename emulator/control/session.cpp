@@ -174,7 +174,7 @@ SimTime Session::on_moved(const board::Board& board, SimTime now) {
     } else if (until_) {
         next = *until_;
     }
-    if (subscriptions.state && !over_) {
+    if (wants(TopicId::state) && !over_) {
         if (subscriptions.due <= now) {
             sample(board, now);
             subscriptions.due = now + subscriptions.every;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "emulator/control/names.h"
+#include "emulator/control/ops.h"
 #include "emulator/control/target.h"
 
 namespace fauxboard::control {
@@ -56,16 +57,15 @@ class Session {
 
     /// What a client has subscribed to.
     struct Subscriptions {
-        bool traffic = false;
-        bool notices = false;
-        bool link = false;
-        bool state = false;
+        std::uint32_t topics = 0;   ///< bit() of each
+        bool words = false;         ///< of traffic: with what the lines mean
         std::vector<Place> places;  ///< of state
         SimTime every{0};
         SimTime due{0};
         std::vector<Json> last;  ///< as last told, one for each place
     };
     Subscriptions subscriptions;
+    bool wants(TopicId topic) const { return (subscriptions.topics & bit(topic)) != 0; }
 
     /// The request at hand is answered when virtual time has got to `until`; others wait.
     void answer_at(SimTime until) { until_ = until; }

@@ -1,15 +1,42 @@
 #pragma once
 
 #include <functional>
-#include <vector>
+#include <optional>
+#include <string>
 
 #include "emulator/board/board.h"
+#include "emulator/control/display.h"
 #include "emulator/control/error.h"
 #include "emulator/fault/fault_control.h"
 
 namespace fauxboard::control {
 
 using board::SimTime;
+
+/// A touch of a button: by the end of its path, the row (from 1) where it stands once for each, the number
+/// typed in where it asks for one.
+struct Press {
+    std::string button;
+    std::size_t row = 0;
+    std::optional<double> input;
+};
+
+/// What a run has for people to look at beside the board: a touch screen or its mirror, the lines that were
+/// said last, curves, a scenario. All in JSON as the ops of the same names answer it; null and empty where
+/// there is none. Called from inside visit().
+class View {
+  public:
+    virtual ~View() = default;
+    virtual Json screen(SimTime /*now*/) { return nullptr; }
+    /// {"sent": [...], "screen": ...}. Throws ControlError when the button cannot be pressed.
+    virtual Json press(board::Board& board, SimTime now, const Press& press);
+    virtual Json talk() { return Json::array(); }
+    virtual Json curves() {
+        return {{"series", Json::array()}, {"t", Json::array()}, {"values", Json::array()}};
+    }
+    virtual Json scenario() { return nullptr; }
+    virtual Json drawing(const board::Board& /*board*/, SimTime /*now*/) { return nullptr; }
+};
 
 /// The running board that a control channel reaches into, and what its host can do with it.
 class Target {
@@ -31,6 +58,16 @@ class Target {
     virtual fault::FaultControl* faults() = 0;
     /// What only the host knows, as members of the answer to `status`: link, speed.
     virtual Json status() const = 0;
+    /// Some client has subscribed to one more topic.
+    virtual void on_wanted() {}
+    /// What people look at beside the board itself. The op of that name answers with what it gives; by
+    /// default there is nothing of the kind.
+    virtual View& view() {
+        static View nothing;
+        return nothing;
+    }
+    /// What shows the board to a person; null when nothing does.
+    virtual Display* display() { return nullptr; }
 };
 
 }  // namespace fauxboard::control

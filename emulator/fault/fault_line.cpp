@@ -226,6 +226,7 @@ std::size_t FaultLine::admitted(std::string_view bytes, Fault*& begins) {
     bool judges = false;
     for (const Fault& fault : faults_) {
         if (dead(fault)) {
+            tell(fault, bytes);
             return 0;
         }
         judges = judges || (fault.spec.trigger.by_line() && fault.spec.kind->interrupt != nullptr);
@@ -241,6 +242,7 @@ std::size_t FaultLine::admitted(std::string_view bytes, Fault*& begins) {
         }
         begins = interrupted_by_line();
         if (begins != nullptr) {
+            tell(*begins, bytes.substr(at));
             return at;
         }
         at = bytes.find_first_of(LineCutter::line_ends, at);
@@ -277,6 +279,9 @@ void FaultLine::edit_from(std::size_t index, Piece piece) {
                            (kind.applies == nullptr || kind.applies(line)) && fault.judge.line();
         }
         const std::size_t size = line.bytes.size();
+        if (fault.acting && line.first) {
+            tell(fault, line.bytes);
+        }
         if (fault.acting) {
             kind.edit(line, fault.spec.values, fault.judge.dice());
         }
@@ -302,6 +307,9 @@ void FaultLine::pace_from(std::size_t index, Piece piece) {
         }
         if (piece.first && !piece.gap) {
             fault.acting = fault.judge.in_force(piece.time) && fault.judge.line();
+            if (fault.acting) {
+                tell(fault, piece.bytes);
+            }
             fault.pace = fault.acting ? kind.pace(fault.spec.values, fault.judge.dice()) : Pace{};
         }
         if (!fault.acting && fault.queue.empty()) {
@@ -316,6 +324,14 @@ void FaultLine::pace_from(std::size_t index, Piece piece) {
         return;
     }
     leave(piece.bytes);
+}
+
+void FaultLine::tell(const Fault& fault, std::string_view bytes) const {
+    if (told_) {
+        bytes.remove_prefix(std::min(bytes.find_first_not_of(LineCutter::line_ends), bytes.size()));
+        told_({fault.id, direction_, fault.spec.kind->name,
+               bytes.substr(0, bytes.find_first_of(LineCutter::line_ends))});
+    }
 }
 
 void FaultLine::leave(std::string_view bytes) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +18,14 @@ namespace fauxboard::fault {
 
 /// Names a fault as long as it lives; never used again. 1 is the first.
 using FaultId = std::uint64_t;
+
+/// What a fault has just done.
+struct Deed {
+    FaultId fault = 0;
+    Direction direction = Direction::to_screen;
+    std::string_view kind;
+    std::string_view line;  ///< as it was before, without its end; of many lines at once, the first
+};
 
 /// A fault and what it has done.
 struct FaultStatus {
@@ -73,6 +82,9 @@ class FaultLine {
     std::size_t size() const { return faults_.size(); }
     std::vector<FaultStatus> list(SimTime now) const;
 
+    /// Told of each deed that concerns a line, from inside push() and advance(); it must not call back.
+    void on_deed(std::function<void(const Deed&)> told) { told_ = std::move(told); }
+
     /// Bytes that arrive.
     void push(SimTime now, std::string_view bytes);
     /// Instead of push(), when neither direction has a fault: the owner passes the bytes on himself, without
@@ -128,9 +140,11 @@ class FaultLine {
     void edit_from(std::size_t index, Piece piece);
     void pace_from(std::size_t index, Piece piece);
     void leave(std::string_view bytes);
+    void tell(const Fault& fault, std::string_view bytes) const;
 
     Direction direction_;
     const FaultLine* peer_;
+    std::function<void(const Deed&)> told_;
     std::vector<Fault> faults_;  ///< by id
     LineCutter cutter_;
     std::string output_;

@@ -27,6 +27,12 @@ class Faults {
     /// by time alone acts once, for both directions.
     std::vector<FaultStatus> list(SimTime now) const;
 
+    /// See FaultLine::on_deed().
+    void on_deed(const std::function<void(const Deed&)>& told) {
+        to_screen_.on_deed(told);
+        to_board_.on_deed(told);
+    }
+
     FaultLine& to_screen() { return to_screen_; }
     FaultLine& to_board() { return to_board_; }
     const FaultLine& to_screen() const { return to_screen_; }

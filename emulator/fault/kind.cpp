@@ -44,10 +44,15 @@ constexpr auto set_of = [](FaultSpec& spec, double value) {
 };
 
 constexpr std::array<std::string_view, 3> directions{"to_screen", "to_board", "both"};
-constexpr std::array<CommonAttribute, 10> common{{
+constexpr std::array<std::string_view, 2> lines{"main", "usb"};
+constexpr std::array<CommonAttribute, 11> common{{
     {{"direction", AttributeType::choice, 2, 0, 2, "which way the spoiled bytes go", directions},
      [](const FaultSpec& s) -> std::optional<double> { return static_cast<double>(s.direction); },
      [](FaultSpec& s, double v) { s.direction = static_cast<Direction>(v); }},
+    {{"line", AttributeType::choice, 0, 0, 1, "which line of the board; to_screen is away from it on both",
+      lines},
+     [](const FaultSpec& s) -> std::optional<double> { return static_cast<double>(s.line); },
+     [](FaultSpec& s, double v) { s.line = static_cast<Line>(v); }},
     {{"probability", AttributeType::number, 1, 0, 1, "the chance of each line"},
      get_of<&Trigger::probability>,
      set_of<&Trigger::probability>},

@@ -22,6 +22,7 @@ AttributeType type_of(FaultUnit unit) {
     switch (unit) {
         case FaultUnit::choice:
             return AttributeType::choice;
+        case FaultUnit::number:
         case FaultUnit::percent:
             return AttributeType::number;
         case FaultUnit::celsius:

@@ -8,8 +8,8 @@
 namespace fauxboard::fault {
 
 std::span<const Unit> time_units() {
-    static constexpr std::array<Unit, 5> units{
-        {{"us", 1}, {"ms", 1e3}, {"s", 1e6}, {"min", 60e6}, {"h", 3600e6}}};
+    static constexpr std::array<Unit, 6> units{
+        {{"us", 1}, {"ms", 1e3}, {"s", 1e6}, {"min", 60e6}, {"h", 3600e6}, {"d", 86'400e6}}};
     return units;
 }
 

@@ -15,12 +15,13 @@ bool ArcSegments::begin(const Request& request) {
     const double dy = request.to[1] - request.from[1];
     if (request.radius != 0) {
         const double chord = std::hypot(dx, dy);
-        const double radius = std::abs(request.radius);
-        if (!(chord > 0) || chord > 2 * radius) {
+        if (!(chord > 0)) {
             return false;
         }
-        // The centre lies beside the middle of the chord, on the side that the direction and R's sign say.
-        const double beside = std::sqrt(radius * radius - chord * chord / 4) / chord;
+        // The centre lies beside the middle of the chord, on the side that the direction and R's sign say; of
+        // a radius that is too short, in the middle.
+        const double beside =
+            std::sqrt(std::max(request.radius * request.radius - chord * chord / 4, 0.0)) / chord;
         const double side = request.clockwise != (request.radius < 0) ? 1 : -1;
         i = dx / 2 + side * beside * dy;
         j = dy / 2 - side * beside * dx;
@@ -32,15 +33,15 @@ bool ArcSegments::begin(const Request& request) {
     centre_x_ = request.from[0] + i;
     centre_y_ = request.from[1] + j;
     start_angle_ = std::atan2(-j, -i);
-    sweep_ = std::atan2(request.to[1] - centre_y_, request.to[0] - centre_x_) - start_angle_;
+    const double end_angle = std::atan2(request.to[1] - centre_y_, request.to[0] - centre_x_);
     constexpr double turn = 2 * std::numbers::pi;
+    // The shorter way first, which is none at all when the arc ends where it began: a full circle then.
+    sweep_ = std::remainder(end_angle - start_angle_, turn);
     if (request.clockwise) {
         sweep_ -= sweep_ >= -1e-9 ? turn : 0;
     } else {
         sweep_ += sweep_ <= 1e-9 ? turn : 0;
     }
-    // atan2 gives (-pi, pi], so that the difference may be a turn too much.
-    sweep_ = std::abs(sweep_) > turn + 1e-6 ? sweep_ - std::copysign(turn, sweep_) : sweep_;
     const double way = std::hypot(std::abs(sweep_) * radius_, request.to[2] - request.from[2]);
     count_ = static_cast<std::uint32_t>(std::clamp(std::floor(way / segment_mm), 1.0, most_segments));
     return true;

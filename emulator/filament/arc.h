@@ -18,7 +18,8 @@ class ArcSegments {
         double feed_mm_s = 0;
     };
 
-    /// False, and nothing to do, when there is no such arc: no centre, or none with that radius.
+    /// False, and nothing to do, when there is no such arc: no centre, or a radius and no way. A radius that
+    /// is too short makes a half circle, as in Marlin.
     bool begin(const Request& request);
     bool active() const { return next_ <= count_; }
     /// The end of the next straight move.

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "emulator/filament/heating_wait.h"
 #include "emulator/filament/thermal_config.h"
 #include "emulator/machine/events.h"
 #include "emulator/machine/machine_config.h"
@@ -39,6 +40,7 @@ struct ProcedureStep {
     machine::EventId event = nullptr;  ///< raise
     bool together = false;             ///< home: all axes at the same time
     double bump_s = -1;  ///< home: second, slow touch of the end stops; < 0: as for every axis of the machine
+    int mesh_point = -1;     ///< probe: what it measures is that point of the mesh, 0 to 8
     bool reference = false;  ///< probe: what it touches here is what heights count from, as when homing Z
 };
 using Procedure = std::vector<ProcedureStep>;
@@ -96,10 +98,11 @@ struct BoardFanConfig {
     int least_pwm = 0;    ///< of the part fan: a smaller value, unless 0, counts as this
 };
 
-struct HostConfig {
-    /// A command of the USB side that takes longer than this raises `host.busy`, and again each time; 0:
-    /// never.
-    double busy_s = 2;
+/// What a board does against filament that is pulled through a cold nozzle (Marlin's
+/// PREVENT_COLD_EXTRUSION).
+struct ExtrusionConfig {
+    bool guarded = false;   ///< by the bound of FilamentConfig, until M302 says otherwise
+    double longest_mm = 0;  ///< of one move; 0: any
 };
 
 /// What a profile can say about a printer that melts filament.
@@ -108,7 +111,8 @@ struct Config : machine::MachineConfig {
     MotionConfig motion;
     FilamentConfig filament;
     JobConfig job;
-    HostConfig host;
+    HeatingWaitConfig heating;
+    ExtrusionConfig extrusion;
     BoardFanConfig board_fan;
     double manual_level_start_mm = 8.0;
 };

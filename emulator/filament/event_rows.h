@@ -8,6 +8,10 @@ namespace fauxboard::filament {
 inline constexpr auto own_events = std::to_array<machine::EventInfo>({
     {"job.ended", "job.end was done, whether or not there was a job"},
     {"motion.axis_homed", "homing of single axes has ended"},
+    {"motion.bad_arc", "a G2 or G3 has no usable centre; nothing moves"},
+    {"motion.cold", "filament was to be moved through a nozzle that is too cold (extruder.min); it is not"},
+    {"motion.too_long", "more filament was to be moved at once than the board allows; it is not"},
+    {"motion.repeated", "one point has been probed as often as was asked for (M48)"},
     {"motion.bed_probed", "the nine points of the bed have been probed"},
     {"motion.probed", "the probe has measured one point"},
     {"motion.parked", "the head has reached its parking place"},
@@ -27,6 +31,11 @@ inline constexpr auto own_events = std::to_array<machine::EventInfo>({
     {"filament.too_cold", "the nozzle is too cold to move filament"},
     {"filament.inserted", "filament was put into the detector"},
     {"filament.removed", "filament was taken out of the detector"},
+    {"job.no_marker", "the file wants to go back (M808) and has set no marker"},
+    {"job.too_many_markers", "the file has set more markers than there is room for (M808 L)"},
+    {"report.temperatures", "reports.temperatures seconds have passed (M155)"},
+    {"report.position", "reports.position seconds have passed (M154)"},
+    {"report.job", "reports.job seconds have passed (M27 S)"},
     {"filament.out", "the enabled detector ran empty while printing"},
 });
 

@@ -22,12 +22,9 @@ bool digit(char c) {
     return c >= '0' && c <= '9';
 }
 
-/// The capital of a letter; 0 for all else.
+/// A capital; 0 for all else.
 char capital(char c) {
-    if (c >= 'A' && c <= 'Z') {
-        return c;
-    }
-    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : '\0';
+    return c >= 'A' && c <= 'Z' ? c : '\0';
 }
 
 const char* skip_blanks(const char* at, const char* end) {
@@ -90,19 +87,22 @@ const char* read_code(const char* at, const char* end, GcodeLine& out) {
         while (at != end && *at == '(') {
             at = skip_blanks(skip_remark(at, end), end);
         }
-        const char letter = at == end ? '\0' : capital(*at);
-        if (letter == 0) {
+        const char letter = at == end ? '\0' : *at;
+        if (capital(letter) == 0 && !(letter >= 'a' && letter <= 'z')) {
             return at;
         }
+        const char* const number_at = skip_blanks(at + 1, end);
         double number = 0;
-        const char* const behind = read_decimal(skip_blanks(at + 1, end), end, number);
+        const char* const behind = read_decimal(number_at, end, number);
         if (letter == 'N' && first) {
             at = behind;
             continue;
         }
         out.letter = letter;
-        out.code = number < 0 || number > largest_code ? largest_code : static_cast<int>(number);
-        return behind;
+        // A word is no code, whatever its first letter: "TIMELAPSE_TAKE_FRAME" is not T0.
+        const bool numbered = number_at != end && digit(*number_at);
+        out.code = numbered ? static_cast<int>(std::min(number, double{largest_code})) : GcodeLine::no_code;
+        return numbered ? behind : at + 1;
     }
 }
 

@@ -9,8 +9,9 @@ namespace fauxboard::filament {
 
 /// One line of G-code, taken apart. Points into the text it was parsed from.
 struct GcodeLine {
-    char letter = 0;           ///< 'G', 'M', 'T' or any other capital; 0 when the line holds no command
-    int code = 0;              ///< the whole number behind it, at most 99999; "G29.1" is 29
+    static constexpr int no_code = -1;
+    char letter = 0;  ///< 'G', 'M', 'T' or any other, also a small one; 0 in a line without a command
+    int code = 0;     ///< the whole number behind it, at most 99999; "G29.1" is 29; or no_code
     std::string_view comment;  ///< behind the first ';', without it; empty when there is none
     std::string_view text;     ///< all behind the code up to the comment or checksum, blanks at its ends off
 
@@ -35,8 +36,8 @@ struct GcodeLine {
 };
 
 /// Takes `line` apart; any bytes give some result. Blanks and bytes below them (NUL, tab, CR) part words, a
-/// line number "N12" in front, a checksum "*34" behind and remarks in brackets are passed over, small letters
-/// count as capitals. Numbers are plain decimals, as firmware reads them: in "X1E5" E is the next parameter,
+/// line number "N12" in front, a checksum "*34" behind and remarks in brackets are passed over, and so are
+/// small letters. Numbers are plain decimals, as firmware reads them: in "X1E5" E is the next parameter,
 /// no exponent. They are kept within +-1e9. Of a parameter that comes twice the last counts.
 void parse_gcode(std::string_view line, GcodeLine& out);
 

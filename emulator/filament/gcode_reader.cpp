@@ -52,6 +52,7 @@ GcodeReader::Result GcodeReader::next(std::string_view& line) {
     if (volume_ == nullptr) {
         return Result::end;
     }
+    const std::uint64_t enough = base_ + at_ + passed_over_at_once;
     while (true) {
         const char* const start = buffer_.data() + at_;
         const std::size_t left = size_ - at_;
@@ -79,10 +80,12 @@ GcodeReader::Result GcodeReader::next(std::string_view& line) {
         }
         if (left == buffer_.size()) {
             // A line longer than a piece: its beginning is given once, the rest is passed over.
-            if (std::exchange(skipping_, true)) {
-                at_ = size_;
-            } else {
+            if (!std::exchange(skipping_, true)) {
                 return take(left, 0, line);
+            }
+            at_ = size_;
+            if (base_ + at_ >= enough) {
+                return Result::passing_over;
             }
         }
         if (!fill()) {

@@ -18,11 +18,14 @@ class GcodeReader {
     static constexpr std::size_t piece_bytes = 16 * 1024;
     /// The rest of a longer line is passed over, as a real board does (which has room for 96 bytes).
     static constexpr std::size_t max_line_bytes = 1024;
+    /// So much of it is passed over in one call.
+    static constexpr std::uint64_t passed_over_at_once = piece_bytes;
 
     enum class Result : std::uint8_t {
         line,
-        end,     ///< nothing behind the last line
-        failed,  ///< the file is gone or cannot be read (any more); trying again later is allowed
+        passing_over,  ///< within a line that is far too long; there may be more of it: go on later
+        end,           ///< nothing behind the last line
+        failed,        ///< the file is gone or cannot be read (any more); trying again later is allowed
     };
 
     /// Begins at byte `from`; in the middle of a line, behind that line. `volume` is used until close().
@@ -30,7 +33,8 @@ class GcodeReader {
     void close();
     bool is_open() const { return volume_ != nullptr; }
 
-    /// The next line, without its end (CR, LF or both). It is good until the next call.
+    /// The next line, without its end (CR, LF or both). It is good until the next call. What one call reads
+    /// is bounded, however long a line of the file may be.
     Result next(std::string_view& line);
 
     /// Where the line after the last one begins; before the first one, where it was opened.

@@ -1,14 +1,27 @@
 #include "emulator/filament/heating_wait.h"
+
+#include <cmath>
+
 #include "emulator/filament/event_rows.h"
-#include "emulator/filament/names.h"
 
 namespace fauxboard::filament {
+namespace {
 
-void HeatingWait::start(HeaterId heater, SimTime now, EventQueue& events) {
-    active_ = true;
+/// Marlin's MIN_COOLING_SLOPE_TIME and MIN_COOLING_SLOPE_DEG (of the bed: .._BED).
+constexpr SimTime cooling_time{60'000'000};
+constexpr double nozzle_cooling_c = 1.5;
+constexpr double bed_cooling_c = 1;
+
+}  // namespace
+
+void HeatingWait::start(HeaterId heater, SimTime now, EventQueue& events, bool cools) {
+    active_ = first_look_ = true;
+    cools_ = cools;
     heater_ = heater;
     counter_ = 0;
-    next_ = now + step;
+    settled_ = cooled_ = never;
+    report_due_ = now;
+    next_ = config_.report_s > 0 ? now : now + step;
     events.raise(event("heating.wait_started"));
 }
 
@@ -19,16 +32,59 @@ void HeatingWait::cancel(EventQueue& events) {
     }
 }
 
+int HeatingWait::residency_left_s(SimTime now) const {
+    return settled_ == never ? -1 : static_cast<int>((settled_ - now) / SimTime{1'000'000});
+}
+
+void HeatingWait::report(SimTime now, EventQueue& events) {
+    ++counter_;
+    if (config_.report_s > 0) {
+        if (report_due_ <= now) {
+            report_due_ = now + from_seconds(config_.report_s);
+            events.raise(event("heating.wait_report"));
+        }
+    } else if (counter_ % 10 == 0) {
+        events.raise(event("heating.wait_report"));
+    }
+}
+
+bool HeatingWait::gives_up(SimTime now, const Thermal& thermal) {
+    if (!cools_ || !thermal.above(heater_) || (cooled_ != never && cooled_ > now)) {
+        return false;
+    }
+    const double c = thermal.sensed_c(heater_);
+    const bool too_slow =
+        cooled_ != never && cooled_c_ - c < (heater_ == HeaterId::bed ? bed_cooling_c : nozzle_cooling_c);
+    cooled_ = now + cooling_time;
+    cooled_c_ = c;
+    return too_slow;
+}
+
+bool HeatingWait::done(SimTime now, const Thermal& thermal) {
+    const bool there =
+        (!thermal.heating(heater_) || thermal.reached(heater_)) && (!cools_ || !thermal.above(heater_));
+    if (config_.residency_s <= 0) {
+        return there;
+    }
+    if (!thermal.heating(heater_) && !cools_) {
+        return true;  // switched off meanwhile
+    }
+    const double off_c = std::fabs(thermal.sensed_c(heater_) - thermal.target_c(heater_));
+    if (settled_ == never ? there : off_c > config_.hysteresis_c) {
+        const double more = first_look_ ? 4.0 / 3 : 1;
+        settled_ = now + from_seconds(config_.residency_s * more);
+    }
+    first_look_ = false;
+    return settled_ <= now;
+}
+
 void HeatingWait::advance(SimTime now, const Thermal& thermal, EventQueue& events) {
     if (!active_ || next_ > now) {
         return;
     }
     next_ += step;
-    ++counter_;
-    if (counter_ % 10 == 0) {
-        events.raise(event("heating.wait_report"));
-    }
-    if (!thermal.heating(heater_) || thermal.reached(heater_)) {
+    report(now, events);
+    if (done(now, thermal) || gives_up(now, thermal)) {
         cancel(events);
     }
 }

@@ -19,8 +19,9 @@ void HostCommands::power_on() {
     source_.arc.clear();
     source_.wake = SimTime{0};
     source_.moves = 0;
-    writing_ = false;
+    waits_ = yields_ = writing_ = false;
     unwritten_.clear();
+    busy_s_ = config_.busy_s;
     busy_ = never;
     parsed_.clear();
     code_ = nullptr;
@@ -35,39 +36,64 @@ void HostCommands::parse(std::string_view command) {
     code_ = line_.letter == 0 ? nullptr : find_code(line_.letter, line_.code);
 }
 
-bool HostCommands::ready(std::string_view command) {
-    if (running() || source_.on.wait.active()) {
+void HostCommands::set_busy_s(double seconds, SimTime now) {
+    busy_s_ = seconds;
+    busy_ = running() && seconds > 0 ? now + from_seconds(seconds) : never;
+}
+
+bool HostCommands::ready(std::size_t from, std::string_view command) {
+    if (running()) {
         return false;
     }
-    if (writing_) {
+    waits_ = false;
+    if (writing(from)) {
         return true;  // it moves nothing, so it need not wait for what moves
     }
     parse(command);
-    const Motion& motion = source_.on.motion;
-    return code_ == nullptr || (code_->at_rest ? !motion.busy() : motion.can_stream());
+    const GcodeMachine& on = source_.on;
+    switch (code_ == nullptr ? Needs::nothing : code_->needs) {
+        case Needs::nothing:
+            break;
+        case Needs::room:
+            waits_ = on.wait.active() || !on.motion.can_stream();
+            break;
+        case Needs::rest:
+            waits_ = on.wait.active() || on.motion.busy();
+            yields_ = false;
+            break;
+        case Needs::turn:
+            waits_ = on.wait.active();
+            break;
+    }
+    return !waits_;
 }
 
-void HostCommands::begin(std::string_view command, SimTime now) {
+void HostCommands::begin(std::size_t from, std::string_view command, SimTime now) {
     parse(command);
-    HostSide::begin(command, now);
+    HostSide::begin(from, command, now);
     source_.now = now;
     source_.byte = source_.on.job.place();
-    busy_ = config_.busy_s > 0 ? now + from_seconds(config_.busy_s) : never;
+    yields_ = code_ != nullptr && code_->needs == Needs::room;
+    source_.on.commands.begun = this;
+    heater_before_ = source_.on.wait.active();
+    user_before_ = source_.on.job.waits_for_user;
+    busy_ = busy_s_ > 0 ? now + from_seconds(busy_s_) : never;
 }
 
-bool HostCommands::run_code() {
-    if (code_ == nullptr) {
-        return false;
-    }
-    code_->run(source_, line_);
+bool HostCommands::run_code(bool by_rule) {
+    return filament::run_code(code_, by_rule, source_, line_);
+}
+
+void HostCommands::settle() {
+    source_.on.commands.begun = nullptr;
     stream();
-    return true;
 }
 
 bool HostCommands::under_way(SimTime now) const {
     const GcodeMachine& on = source_.on;
-    const bool waits_for_user = on.job.waits_for_user && !on.job.active();
-    return source_.arc.active() || source_.wake > now || on.wait.active() || waits_for_user ||
+    const bool heats = on.wait.active() && !heater_before_;
+    const bool waits_for_user = on.job.waits_for_user && !user_before_;
+    return source_.arc.active() || source_.wake > now || heats || waits_for_user ||
            (code_ != nullptr && code_->blocks && on.motion.busy());
 }
 
@@ -80,12 +106,13 @@ void HostCommands::follow_transfer() {
     const bool open = transfer_.takes_from(Transfer::usb_side);
     if (open != writing_) {
         writing_ = open;
+        writer_ = speaker;
         unwritten_.clear();
     }
 }
 
 bool HostCommands::write(std::string_view command, SimTime now) {
-    if (!writing_) {
+    if (!writing(speaker)) {
         return false;
     }
     if (line_.letter == 'M' && line_.code == end_of_file) {
@@ -124,7 +151,7 @@ void HostCommands::advance(SimTime now) {
         stream();
     }
     if (busy_ <= now) {
-        busy_ = now + from_seconds(config_.busy_s);
+        busy_ = now + from_seconds(busy_s_);
         source_.on.events.raise(event("host.busy"));
     }
 }

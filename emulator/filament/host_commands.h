@@ -12,25 +12,32 @@
 
 namespace fauxboard::filament {
 
-/// What the commands of the USB side do, one after the other: each begins when the one before it is over, and
-/// a move when the planner has room for it. That is how a host that waits for every `ok` is kept at the
-/// printer's pace. Shares the modal state (units, feed) with a job, as in the firmware.
+/// What the commands of the lines do that are spoken as a host speaks, one after the other: each begins when
+/// the one before it is over, and a move when the planner has room for it. That is how a host that waits for
+/// every `ok` is kept at the printer's pace. Shares the modal state (units, feed) with a job, as in the
+/// firmware, and the planner: while a command waits for the planner, or runs, the job's file is not read.
 ///
-/// While a file that the host began (M28) is open, its lines are written to it instead, until M29.
+/// While a file that a host began (M28) is open, that line's commands are written to it instead, until M29.
 class HostCommands final : public machine::HostSide {
   public:
-    HostCommands(GcodeMachine& on, Transfer& transfer, const HostConfig& config)
+    HostCommands(GcodeMachine& on, Transfer& transfer, const machine::HostConfig& config)
         : HostSide(on.events), transfer_(transfer), config_(config), source_{on} {}
 
     void power_on() override;
-    bool ready(std::string_view command) override;
-    void begin(std::string_view command, SimTime now) override;
-    bool run_code() override;
+    bool ready(std::size_t from, std::string_view command) override;
+    void begin(std::size_t from, std::string_view command, SimTime now) override;
+    bool run_code(bool by_rule) override;
+    void settle() override;
     bool under_way(SimTime now) const override;
     void over() override;
+    /// Whether the planner is kept for a command, so that the job has to wait.
+    bool holds() const { return running() || (waits_ && !yields_); }
+    /// The job has had its turn in between.
+    void go_on() { yields_ = false; }
 
-    /// Whether a file of the host's is open, so that lines are kept and not carried out. Also when it can no
-    /// longer be written: a host that goes on sending it must not have it printed instead.
+    /// Also when the file can no longer be written: a host that goes on sending it must not have it printed
+    /// instead.
+    bool writing(std::size_t from) const override { return writing_ && writer_ == from; }
     bool writing() const { return writing_; }
     /// The command begun becomes a line of the file that is open. False when there is none, or it is the one
     /// that ends it: it is to be carried out then. Raises `host.write_failed`, once for a file, when the disk
@@ -44,7 +51,12 @@ class HostCommands final : public machine::HostSide {
         return idle ? never : next_of_command(now);
     }
 
+    /// The number of the code of the last one begun ("M104": 104); -1 of a word.
+    int code() const { return line_.code; }
     std::uint64_t moves() const { return source_.moves; }
+    /// A command that takes longer raises `host.busy`, and again each time; 0: never.
+    double busy_s() const { return busy_s_; }
+    void set_busy_s(double seconds, SimTime now);
 
   private:
     /// What the board collects before it writes: a block of the card.
@@ -56,14 +68,20 @@ class HostCommands final : public machine::HostSide {
     SimTime next_of_command(SimTime now) const;
 
     Transfer& transfer_;
-    const HostConfig& config_;
+    const machine::HostConfig& config_;
     GcodeSource source_;
     GcodeLine line_;
     std::string parsed_;               ///< what line_ was parsed from and points into
     const GcodeCode* code_ = nullptr;  ///< of parsed_
+    bool waits_ = false;               ///< a command for the planner
+    bool yields_ = false;              ///< after each move of its own the job may put in one
+    bool heater_before_ = false;       ///< what was waited for already when it began
+    bool user_before_ = false;
     bool writing_ = false;
+    std::size_t writer_ = 0;
     std::string unwritten_;  ///< of the file; less than a block and a line
-    SimTime busy_ = never;   ///< when the host is told next that it has to wait
+    double busy_s_ = 0;
+    SimTime busy_ = never;  ///< when the host is told next that it has to wait
 };
 
 }  // namespace fauxboard::filament

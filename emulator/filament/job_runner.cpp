@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "emulator/filament/event_rows.h"
 #include "emulator/filament/heating_wait.h"
+#include "emulator/filament/host_commands.h"
 #include "emulator/filament/motion.h"
 #include "emulator/filament/names.h"
 
@@ -34,7 +36,7 @@ void JobRunner::power_on() {
 
 void JobRunner::start(SimTime now) {
     stop();
-    lines_ = unknown_codes_ = source_.moves = 0;
+    lines_ = lines_cut_ = unknown_codes_ = source_.moves = 0;
     on_.modal = {};
     wake_ = source_.wake = source_.now = now;
     read_tail();
@@ -76,6 +78,7 @@ void JobRunner::seek() {
     enough_byte_ = on_.job.place() + breath_bytes;
     const Volume* volume = storage_.volume(on_.job.volume());
     reader_.close();
+    cut_ = 0;
     if (volume != nullptr) {
         reader_.open(*volume, on_.job.path(), on_.job.place());
     }
@@ -104,7 +107,8 @@ std::uint64_t JobRunner::executed_byte() const {
 
 /// Whether lines are being read and carried out at all.
 bool JobRunner::reading() const {
-    return on_.job.status() == JobStatus::printing && !on_.job.pausing() && !on_.wait.active();
+    return on_.job.status() == JobStatus::printing && !on_.job.pausing() && !on_.wait.active() &&
+           !on_.host.holds();
 }
 
 SimTime JobRunner::next_event(SimTime now) const {
@@ -181,6 +185,9 @@ bool JobRunner::fetch() {
     switch (reader_.next(text)) {
         case GcodeReader::Result::line:
             break;
+        case GcodeReader::Result::passing_over:
+            line_ = {};
+            return true;
         case GcodeReader::Result::end:
             ended_ = true;
             return false;
@@ -189,6 +196,12 @@ bool JobRunner::fetch() {
             return false;
     }
     ++lines_;
+    source_.next = reader_.byte();
+    text_ = text;
+    if (std::exchange(cut_, reader_.lines_cut()) != reader_.lines_cut()) {
+        ++lines_cut_;
+        on_.events.raise(event("job.line_too_long"));
+    }
     parse_gcode(text, line_);
     if (!line_.comment.empty()) {
         take_comment();
@@ -204,17 +217,24 @@ void JobRunner::take_comment() {
     on_.job.estimate_s = notes_.seconds();
 }
 
+bool JobRunner::run_code(bool by_rule) {
+    return filament::run_code(code_, by_rule, source_, line_);
+}
+
 void JobRunner::execute() {
-    const GcodeCode* code = line_.letter == 0 ? nullptr : find_code(line_.letter, line_.code);
-    held_ = code != nullptr && code->at_rest && on_.motion.busy();
+    code_ = line_.letter == 0 ? nullptr : find_code(line_.letter, line_.code);
+    held_ = code_ != nullptr && code_->needs == Needs::rest && on_.motion.busy();
     if (held_ || line_.letter == 0) {
         return;
     }
-    if (code == nullptr) {
-        ++unknown_codes_;
-        return;
+    on_.commands.begun = this;
+    machine::FileCommands* const rules = on_.commands.of_files;
+    const bool by_rule = rules != nullptr && rules->carry_out(text_, line_.letter, line_.code);
+    unknown_codes_ += by_rule || run_code(false) ? 0 : 1;
+    on_.commands.begun = nullptr;
+    if (code_ != nullptr && code_->needs == Needs::room) {
+        on_.host.go_on();
     }
-    code->run(source_, line_);
 }
 
 /// The file is gone. The job pauses, so that it can go on when the card is back.
@@ -232,6 +252,9 @@ void JobRunner::scout(std::uint64_t bytes) {
     GcodeReader::Result result = GcodeReader::Result::line;
     while (notes_.layers() == 0 && scout_.byte() < enough) {
         result = scout_.next(text);
+        if (result == GcodeReader::Result::passing_over) {
+            continue;
+        }
         if (result != GcodeReader::Result::line) {
             break;
         }
@@ -243,7 +266,8 @@ void JobRunner::scout(std::uint64_t bytes) {
     if (result == GcodeReader::Result::end) {
         notes_.set_layers(scout_notes_.layer());
     }
-    if (notes_.layers() != 0 || result != GcodeReader::Result::line) {
+    const bool over = result == GcodeReader::Result::end || result == GcodeReader::Result::failed;
+    if (notes_.layers() != 0 || over) {
         on_.job.layers = notes_.layers();
         scout_.close();
     }

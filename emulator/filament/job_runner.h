@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <string_view>
 
 #include "emulator/filament/config.h"
 #include "emulator/filament/gcode_codes.h"
@@ -17,6 +18,7 @@ struct JobCounts {
     std::uint64_t lines = 0;          ///< read, comments included
     std::uint64_t moves = 0;          ///< G0 to G3 carried out
     std::uint64_t unknown_codes = 0;  ///< skipped
+    std::uint64_t lines_cut = 0;      ///< too long to be read to their ends
 };
 
 /// Executes the file of a job: reads its lines as the planner has room, carries out their codes on the
@@ -25,10 +27,10 @@ struct JobCounts {
 /// It runs in virtual time and does nothing between events: it goes on when a block of the planner ends, a
 /// procedure or a wait is over. A line costs no time, but in 10 ms no more than 4 KiB are read, and the line
 /// in which they end (400 KB/s, what such boards read from a card), so that no file can hold the board up.
-class JobRunner {
+class JobRunner : public machine::BegunCommand {
   public:
     JobRunner(GcodeMachine& on, const Storage& storage, const JobConfig& config)
-        : on_(on), storage_(storage), config_(config), source_{on} {}
+        : on_(on), storage_(storage), config_(config), source_{on, true} {}
 
     void power_on();
     /// The job starts, at its place().
@@ -49,7 +51,9 @@ class JobRunner {
     /// A finished job is still shown, for a while.
     bool shows_finished() const { return close_ != never; }
 
-    JobCounts counts() const { return {lines_, source_.moves, unknown_codes_}; }
+    bool run_code(bool by_rule) override;
+
+    JobCounts counts() const { return {lines_, source_.moves, unknown_codes_, lines_cut_}; }
     /// The byte in the file at which the move under way begins: what a power cut loses begins here.
     std::uint64_t executed_byte() const;
 
@@ -69,12 +73,16 @@ class JobRunner {
     const JobConfig& config_;
     GcodeReader reader_;
     GcodeLine line_;
+    std::string_view text_;            ///< what line_ was parsed from
+    const GcodeCode* code_ = nullptr;  ///< of line_
     SlicerNotes notes_;
     GcodeReader scout_;  ///< runs ahead to count layers, where no comment tells their number
     SlicerNotes scout_notes_;
     GcodeSource source_;  ///< its byte: where line_ begins
     std::uint64_t lines_ = 0;
     std::uint64_t unknown_codes_ = 0;
+    std::uint64_t lines_cut_ = 0;
+    std::uint64_t cut_ = 0;  ///< of the reader, as far as told
     bool held_ = false;      ///< line_ is still to be carried out, once nothing moves
     bool ended_ = false;     ///< the file is at its end; the moves are not
     SimTime wake_{0};        ///< not to go on before

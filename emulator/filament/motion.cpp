@@ -55,6 +55,8 @@ void Motion::power_on() {
     lost_rounds_ = 0;
     homed_ = 0;
     relative_ = relative_e_ = motors_ = false;
+    mesh = {};
+    probed_ = {};
 }
 
 void Motion::set_motors(bool on) {
@@ -224,6 +226,13 @@ void Motion::stream(const AxisValues& target, double feed_mm_s, std::uint64_t by
     planned_ = accepted_ = inside;
 }
 
+void Motion::tell_travel(const AxisValues& to) const {
+    const bool moves = to[0] != executed_[0] || to[1] != executed_[1];
+    if (moves) {
+        travelled_({executed_[0], executed_[1], to[0], to[1], to[2], to[3] > executed_[3]});
+    }
+}
+
 void Motion::start_stream(SimTime now) {
     if (!planner_.empty() && !planner_.running()) {
         planner_.start(now);
@@ -235,6 +244,9 @@ void Motion::advance(SimTime now, EventQueue& events) {
     while (planner_.running() && planner_.end() <= now) {
         const SimTime end = planner_.end();
         extruded_ += planner_.target()[3] - executed_[3];
+        if (travelled_) {
+            tell_travel(planner_.target());
+        }
         executed_ = planner_.target();
         planner_.finish();
         if (planner_.empty()) {
@@ -275,9 +287,12 @@ void Motion::finish(EventQueue& events) {
     extruded_ += step.target[3] - executed_[3];
     executed_ = step.target;
     switch (step.what.kind) {
+        case Kind::probe:
+            note_probed(step);
+            accepted_ = step.target;
+            break;
         case Kind::zero:
         case Kind::home:
-        case Kind::probe:
             accepted_ = step.target;
             break;
         case Kind::homed:
@@ -294,6 +309,15 @@ void Motion::finish(EventQueue& events) {
             break;
     }
     accept_ahead();
+}
+
+void Motion::note_probed(const Step& step) {
+    const double height = step.target[z_axis] - config_.probe_trigger_mm;
+    probed_ = {step.target[0] + config_.probe_offset_mm[0], step.target[1] + config_.probe_offset_mm[1],
+               height};
+    if (step.what.mesh_point >= 0) {
+        mesh.mm[static_cast<std::size_t>(step.what.mesh_point)] = height;
+    }
 }
 
 bool Motion::fails(const Step& step, EventQueue& events) {
@@ -368,9 +392,9 @@ double Motion::bed_height_mm(double x, double y) const {
     const auto row = static_cast<std::size_t>(std::min(v, 1.0));
     const double fu = u - static_cast<double>(column);
     const double fv = v - static_cast<double>(row);
-    const auto& mesh = config_.bed_mesh_mm;
-    const double front = mesh[row][column] * (1 - fu) + mesh[row][column + 1] * fu;
-    const double back = mesh[row + 1][column] * (1 - fu) + mesh[row + 1][column + 1] * fu;
+    const auto& bed = config_.bed_mesh_mm;
+    const double front = bed[row][column] * (1 - fu) + bed[row][column + 1] * fu;
+    const double back = bed[row + 1][column] * (1 - fu) + bed[row + 1][column + 1] * fu;
     return front * (1 - fv) + back * fv;
 }
 

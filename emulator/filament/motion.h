@@ -1,13 +1,16 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 
 #include "emulator/filament/config.h"
 #include "emulator/filament/names.h"
 #include "emulator/filament/planner.h"
 #include "emulator/filament/state.h"
+#include "emulator/filament/travel.h"
 
 namespace fauxboard::filament {
 
@@ -66,6 +69,12 @@ class Motion {
         return planner_.empty() ? otherwise : planner_.byte();
     }
 
+    /// Moves that the planner takes, one block always kept as Marlin does.
+    std::size_t planner_free() const {
+        const std::size_t most = config_.planner_blocks > 0 ? config_.planner_blocks - 1 : 0;
+        return most - std::min(most, planner_.size());
+    }
+
     void set_relative(bool relative) { relative_ = relative; }
     bool relative() const { return relative_; }
     /// M82, M83: E alone; G91 makes it relative as well.
@@ -76,6 +85,9 @@ class Motion {
     void set_motors(bool on);
     bool motors() const { return motors_ && !faults_.dead_motors; }
     MotionFaults& faults() { return faults_; }
+    /// Told of each move of a job in the plane when it has been done, from inside advance(); must not call
+    /// back.
+    void on_travel(std::function<void(const Travel&)> told) { travelled_ = std::move(told); }
     /// Filament that the extruder was turned for since the machine was made, mm.
     double extruded_mm() const { return extruded_; }
     bool homed() const { return (homed_ & 7U) == 7U; }
@@ -99,6 +111,14 @@ class Motion {
     void set_speed_percent(int percent) { speed_percent_ = percent; }
     int flow_percent() const { return flow_percent_; }
     void set_flow_percent(int percent) { flow_percent_ = percent; }
+    /// What was measured of the bed: heights at 3 x 3 points, X first, from the front; kept in the EEPROM.
+    struct Mesh {
+        bool valid = false;
+        std::array<double, 9> mm{};
+    };
+    Mesh mesh;
+    /// The point that was probed last: where the probe touched, and the height it found there, mm.
+    const std::array<double, 3>& probed_mm() const { return probed_; }
     /// Rounds that the status wheel is to leave out; asking takes them.
     int take_lost_rounds();
 
@@ -116,11 +136,13 @@ class Motion {
     void accept_ahead();
     void begin(SimTime now, EventQueue& events);
     void finish(EventQueue& events);
+    void note_probed(const Step& step);
     /// Whether the step under way ends without its switch having triggered; then all is dropped.
     bool fails(const Step& step, EventQueue& events);
     bool dead_endstop(std::size_t axis) const { return faults_.dead_motors || faults_.dead_endstops[axis]; }
     double duration_s(const Step& step) const;
     double homing_s(const ProcedureStep& step) const;
+    void tell_travel(const AxisValues& to) const;
     double bed_height_mm(double x, double y) const;
 
     const MotionConfig& config_;
@@ -145,7 +167,9 @@ class Motion {
     bool relative_e_ = false;
     bool motors_ = false;
     MotionFaults faults_;
+    std::function<void(const Travel&)> travelled_;
     double extruded_ = 0;
+    std::array<double, 3> probed_{};
 };
 
 }  // namespace fauxboard::filament

@@ -14,7 +14,9 @@ Printer::Printer(std::shared_ptr<const Config> config, const machine::Services& 
       motion(config_->motion, settings),
       moves(config_->motion, leveling, motion, events, loop),
       feeder(config_->filament),
-      gcode{motion, moves, thermal, wait, mixer, fans, settings, modal, job, events, *this},
+      wait(config_->heating),
+      gcode{motion, moves,  thermal, wait,     mixer, fans,  settings, modal,
+            job,    events, *this,   commands, host,  guard, told,     config_->motion},
       runner(gcode, storage, config_->job),
       host(gcode, transfer, config_->host),
       recovery(gcode, storage, runner, config_->job) {
@@ -34,6 +36,10 @@ void Printer::power_on_parts(SimTime now) {
     leveling.manual_z_mm = config_->manual_level_start_mm;
     filament.detector = Filament{}.detector;  // whether filament is in it is physical and stays
     runner.power_on();
+    reports.power_on();
+    guard = {config_->extrusion.guarded, false, config_->filament.min_extrude_c,
+             config_->extrusion.longest_mm};
+    told = {};
     modal = {};
     recovery.power_on();
     screen = ScreenSide{};
@@ -55,6 +61,7 @@ void Printer::run_parts(SimTime now) {
     wait.advance(now, thermal, events);
     runner.advance(now);
     host.advance(now);
+    reports.advance(now, events);
     recovery.advance(now);
     motion.start_stream(now);
     recovery.keep(now);
@@ -68,7 +75,7 @@ void Printer::run_parts(SimTime now) {
 SimTime Printer::next_of_parts() const {
     return std::min({motion.next_event(), feeder.next_event(), wait.next_event(), next_of_job(),
                      host.next_event(now()), recovery.next_event(now()), thermal.next_alarm_check(),
-                     motors_rest_});
+                     reports.next_event(), motors_rest_});
 }
 
 SimTime Printer::next_of_job() const {
@@ -133,6 +140,11 @@ void Printer::pause_now() {
 
 bool Printer::resume_job() {
     return config_->job.resume_homes_first ? recovery.begin() : Machine::resume_job();
+}
+
+void Printer::job_gives_way() {
+    recovery.abort();
+    recovery.drop();
 }
 
 void Printer::job_ends() {

@@ -16,6 +16,7 @@
 #include "emulator/filament/names.h"
 #include "emulator/filament/procedures.h"
 #include "emulator/filament/recovery.h"
+#include "emulator/filament/reports.h"
 #include "emulator/filament/state.h"
 #include "emulator/filament/thermal.h"
 #include "emulator/machine/machine.h"
@@ -75,6 +76,9 @@ class Printer final : public machine::Machine {
     GcodeMachine gcode;  ///< all that codes act on
     JobRunner runner;
     HostCommands host;
+    Reports reports;
+    ExtrusionGuard guard;
+    ToldText told;
     ScreenSide screen;
     Steppers steppers;
     Recovery recovery;
@@ -89,6 +93,7 @@ class Printer final : public machine::Machine {
     bool restless_parts() const override;
     void hang_parts(bool powered) override;
     void forget_file() override { runner.stop(); }
+    void job_gives_way() override;
     void job_starts() override { runner.start(now()); }
     void job_pauses(bool park) override;
     void job_goes_on() override { runner.resume(now()); }

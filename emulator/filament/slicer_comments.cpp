@@ -75,6 +75,14 @@ void count(std::string_view rest, SlicerNote& note) {
     const auto number = whole(rest);
     note.layers = number && *number > 0 ? number : std::nullopt;
 }
+/// "1/2": the layer, and how many there are.
+void layer_of_layers(std::string_view rest, SlicerNote& note) {
+    one_based_layer(rest, note);
+    const std::size_t slash = rest.find('/');
+    if (slash != std::string_view::npos) {
+        count(rest.substr(slash + 1), note);
+    }
+}
 void time_in_seconds(std::string_view rest, SlicerNote& note) {
     skip_blanks(rest);
     if (!rest.empty() && digit(rest[0])) {
@@ -85,6 +93,12 @@ void time_in_seconds(std::string_view rest, SlicerNote& note) {
 void time_in_words(std::string_view rest, SlicerNote& note) {
     note.seconds = clock_time(rest);
 }
+/// "model printing time: 14m 30s; total estimated time: 20m 54s": the second is what it takes.
+void model_and_total_time(std::string_view rest, SlicerNote& note) {
+    constexpr std::string_view total = "total estimated time:";
+    const std::size_t at = rest.find(total);
+    note.seconds = clock_time(at == std::string_view::npos ? rest : rest.substr(at + total.size()));
+}
 
 constexpr std::array words{
     Word{"LAYER:", zero_based_layer},
@@ -93,10 +107,13 @@ constexpr std::array words{
     Word{"LAYER_CHANGE", [](std::string_view, SlicerNote& note) { note.next_layer = true; }},
     Word{"BEFORE_LAYER_CHANGE", [](std::string_view, SlicerNote& note) { note.before_layer = true; }},
     Word{"BEGIN_LAYER_OBJECT", [](std::string_view, SlicerNote& note) { note.next_layer = true; }},
+    Word{"CHANGE_LAYER", [](std::string_view, SlicerNote& note) { note.next_layer = true; }},
+    Word{"layer num/total_layer_count:", layer_of_layers},
     Word{"layer ", one_based_layer},
     Word{"total layers count =", count},
     Word{"total layer number:", count},
     Word{"estimated printing time (normal mode) =", time_in_words},
+    Word{"model printing time:", model_and_total_time},
 };
 
 }  // namespace
@@ -105,7 +122,7 @@ SlicerNote read_slicer_comment(std::string_view comment) {
     SlicerNote note;
     skip_blanks(comment);
     // Nearly every comment ends here: its first letter is none of theirs.
-    if (comment.empty() || std::string_view("LTBlte").find(comment[0]) == std::string_view::npos) {
+    if (comment.empty() || std::string_view("LTBCltem").find(comment[0]) == std::string_view::npos) {
         return note;
     }
     for (const Word& word : words) {

@@ -17,7 +17,9 @@ struct SlicerNote {
 /// Reads a comment, without its ';'. Understood are Cura (`LAYER:0`, `LAYER_COUNT:20`, `TIME:3600`),
 /// ideaMaker
 /// (`LAYER:0`), PrusaSlicer and its kin (`LAYER_CHANGE`, `BEFORE_LAYER_CHANGE`, `total layers count = 20`,
-/// `estimated printing time (normal mode) = 1h 2m 3s`), Simplify3D (`layer 1, Z = 0.200`) and KISSlicer
+/// `estimated printing time (normal mode) = 1h 2m 3s`), Bambu Studio (`CHANGE_LAYER`,
+/// `layer num/total_layer_count: 1/2`, `model printing time: 1m; total estimated time: 2m 3s`), Simplify3D
+/// (`layer 1, Z = 0.200`) and KISSlicer
 /// (`BEGIN_LAYER_OBJECT`). All else, and what does not fit into the numbers, says nothing.
 SlicerNote read_slicer_comment(std::string_view comment);
 

@@ -66,6 +66,22 @@ struct FilamentPath {
     double counted_mm = 0;  ///< of what was extruded, so much is in moved_mm or lost
 };
 
+/// What keeps filament from being pulled through a cold nozzle (M302).
+struct ExtrusionGuard {
+    bool on = false;
+    bool cold_allowed = false;
+    double min_c = 170;
+    double longest_mm = 0;  ///< of one move; 0: any
+};
+
+/// A text that a command brings for others (M118), and to whom.
+struct ToldText {
+    std::string text;
+    bool echo = false;    ///< E1: behind "echo:"
+    bool action = false;  ///< A1: behind "//"
+    int line = -1;        ///< P: 0 all, 1 and up one of them; -1: whoever sent it
+};
+
 struct ScreenSide {
     bool known = false;  ///< told us its firmware since power-on
     std::string firmware;

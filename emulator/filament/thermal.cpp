@@ -92,6 +92,11 @@ bool Thermal::reached(HeaterId id) const {
     return printed_c(h.channel) >= h.target_c - h.config->done_within_c;
 }
 
+bool Thermal::above(HeaterId id) const {
+    const Heater& h = heater(id);
+    return printed_c(h.channel) > h.target_c + h.config->done_within_c;
+}
+
 void Thermal::mark_reported() {
     reported_ = printed_;
     moved_ = false;

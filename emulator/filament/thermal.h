@@ -88,6 +88,8 @@ class Thermal {
 
     /// Where M109/M190 stop waiting: printed >= target - done_within_c.
     bool reached(HeaterId id) const;
+    /// The same from above: printed > target + done_within_c.
+    bool above(HeaterId id) const;
 
     /// The printed values of this moment were reported.
     void mark_reported();

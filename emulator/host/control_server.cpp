@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <chrono>
 #include <optional>
 #include <utility>
 
 #include "emulator/control/session.h"
+#include "emulator/link/link.h"
 #include "emulator/link/socket_io.h"
 
 namespace fauxboard::host {
@@ -17,9 +17,6 @@ namespace {
 
 using control::Session;
 using link::UniqueFd;
-
-/// Virtual time that may be skipped before the event loop gets its turn.
-constexpr SimTime skip_at_once = std::chrono::minutes(1);
 
 }  // namespace
 
@@ -30,12 +27,22 @@ class ControlServer::Client : public std::enable_shared_from_this<Client> {
         : server_(server),
           socket_(std::move(socket)),
           watch_(
-              server.parts_.loop, [this] { read(); }, [this] { pump(); }) {
+              server.loop_, [this] { read(); }, [this] { pump(); }) {
         session_.emplace(server.hub_, [this] { pump_soon(); });
     }
 
     /// Throws link::LinkError when the event loop has no room for it.
     void start() { watch_.start(socket_.get()); }
+    /// Looks at one request of what came. False when nothing of it is left.
+    bool serve() {
+        if (session_) {
+            const std::size_t size = std::min(unread_.find('\n'), unread_.size() - 1) + 1;
+            session_->receive(std::string_view(unread_).substr(0, size));
+            unread_.erase(0, size);
+            pump();
+        }
+        return session_.has_value() && !unread_.empty();
+    }
     /// As far as it goes without waiting; then the socket is closed.
     void end() {
         if (session_) {
@@ -48,7 +55,7 @@ class ControlServer::Client : public std::enable_shared_from_this<Client> {
   private:
     /// The session wakes us from inside the board's calls, where nothing may be done.
     void pump_soon() {
-        server_.parts_.loop.post([self = shared_from_this()] { self->pump(); });
+        server_.loop_.post([self = shared_from_this()] { self->pump(); });
     }
 
     void pump() {
@@ -58,10 +65,10 @@ class ControlServer::Client : public std::enable_shared_from_this<Client> {
         }
         session_->proceed();
         if (session_->dropped()) {
-            server_.parts_.say("a client of the control channel does not read what it asked for; dropped");
+            server_.say_("a client of the control channel does not read what it asked for; dropped");
         } else if (!flush() || !session_->over() || !written()) {
             if (session_) {
-                watch_.hold(ended_ || !session_->wants_input());
+                watch_.hold(ended_ || !unread_.empty() || !session_->wants_input());
             }
             return;
         }
@@ -99,7 +106,9 @@ class ControlServer::Client : public std::enable_shared_from_this<Client> {
         const auto self = shared_from_this();  // leave() may drop the last one
         const ssize_t size = link::read_socket(socket_.get(), buffer_.data(), buffer_.size());
         if (size > 0) {
-            session_->receive({buffer_.data(), static_cast<std::size_t>(size)});
+            unread_.assign(buffer_.data(), static_cast<std::size_t>(size));
+            watch_.hold(true);
+            return server_.queue(self);
         } else if (size == 0) {
             ended_ = true;
             session_->finish();
@@ -127,6 +136,7 @@ class ControlServer::Client : public std::enable_shared_from_this<Client> {
     link::Watch watch_;
     std::optional<Session> session_;
     std::array<char, 4096> buffer_{};
+    std::string unread_;  ///< what came and is not looked at; nothing is read meanwhile
     std::string writing_;
     std::size_t at_ = 0;  ///< so much of it is written
     bool ended_ = false;  ///< the client has said all it will
@@ -135,18 +145,17 @@ class ControlServer::Client : public std::enable_shared_from_this<Client> {
 // The server.
 // -----------------------------------------------------------------------------------------------
 
-ControlServer::ControlServer(Parts parts)
-    : parts_(std::move(parts)),
-      hub_(*this),
+ControlServer::ControlServer(link::EventLoop& loop, control::Hub& hub,
+                             std::function<void(std::string_view)> say)
+    : loop_(loop),
+      hub_(hub),
+      say_(std::move(say)),
       listener_(
-          parts_.loop, [this](UniqueFd socket) { take(std::move(socket)); },
-          [this](std::string_view text) { parts_.say(text); }) {
-    parts_.live.follow([this](SimTime now) { return hub_.on_moved(now); });
-}
+          loop, [this](UniqueFd socket) { take(std::move(socket)); },
+          [this](std::string_view text) { say_(text); }) {}
 
 ControlServer::~ControlServer() {
     close();
-    parts_.live.follow({});
 }
 
 void ControlServer::open(const std::string& path) {
@@ -169,7 +178,7 @@ void ControlServer::take(UniqueFd socket) {
         client->start();
         clients_.push_back(client);
     } catch (const link::LinkError& error) {
-        parts_.say(error.what());
+        say_(error.what());
     }
 }
 
@@ -182,50 +191,35 @@ void ControlServer::turn_away(const UniqueFd& socket) const {
     (void)link::write_socket(socket.get(), line.data(), line.size());
 }
 
+/// Put off to the loop's next turn; dropped if this is gone by then.
+template <class Task>
+void ControlServer::post(Task task) {
+    loop_.post([life = std::weak_ptr(life_), task = std::move(task)] {
+        if (!life.expired()) task();
+    });
+}
+
+void ControlServer::queue(const std::shared_ptr<Client>& client) {
+    const bool first = queue_.empty();
+    queue_.push_back(client);
+    if (first) {
+        post([this] { serve_next(); });
+    }
+}
+
+void ControlServer::serve_next() {
+    const std::shared_ptr<Client> client = queue_.front().lock();
+    queue_.pop_front();
+    if (client && client->serve()) {
+        queue_.push_back(client);
+    }
+    if (!queue_.empty()) {
+        post([this] { serve_next(); });
+    }
+}
+
 void ControlServer::leave(const Client& client) {
     std::erase_if(clients_, [&](const std::shared_ptr<Client>& each) { return each.get() == &client; });
-}
-
-void ControlServer::on_link(SimTime now, link::LinkState state, std::string_view why) {
-    hub_.on_link(now, link::state_name(state), why);
-}
-
-/// Skips a stretch and posts itself for the next one: a jump of days must not make the channel deaf.
-void ControlServer::skip_on() {
-    const SimTime left = skip_to_ - parts_.clock.now();
-    if (left > SimTime{0}) {
-        parts_.clock.skip(std::min(left, skip_at_once));
-        parts_.loop.post([this, life = std::weak_ptr(life_)] {
-            if (!life.expired()) skip_on();
-        });
-    }
-}
-
-SimTime ControlServer::skip(SimTime by) {
-    const SimTime now = parts_.clock.now();
-    const bool under_way = skip_to_ > now;
-    skip_to_ = std::max(skip_to_, now) + by;
-    if (!under_way) {
-        parts_.loop.post([this, life = std::weak_ptr(life_)] {
-            if (!life.expired()) skip_on();
-        });
-    }
-    return skip_to_;
-}
-
-void ControlServer::quit() {
-    parts_.loop.post(parts_.quit);
-}
-
-control::Json ControlServer::status() const {
-    const link::LinkStats& stats = parts_.link.stats();
-    return {{"link",
-             {{"kind", parts_.link.kind()},
-              {"path", parts_.link.path()},
-              {"state", link::state_name(parts_.link.state())},
-              {"bytes_in", stats.bytes_in},
-              {"bytes_out", stats.bytes_out},
-              {"bytes_lost", stats.bytes_lost}}}};
 }
 
 }  // namespace fauxboard::host

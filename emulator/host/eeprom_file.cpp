@@ -92,14 +92,15 @@ std::optional<std::string> eeprom_image(std::string_view text) {
     return std::string(kept.substr(first_line.size()));
 }
 
-EepromFile::EepromFile(std::string file, OnTrouble on_trouble)
-    : file_(std::move(file)), on_trouble_(std::move(on_trouble)) {
-    // A symlink stays one: what it points to is replaced.
+std::string EepromFile::real_path(const std::string& file) {
     std::error_code error;
-    const fs::path real = fs::weakly_canonical(fs::absolute(file_, error), error);
-    if (!error) {
-        file_ = real.string();
-    }
+    const fs::path real = fs::weakly_canonical(fs::absolute(file, error), error);
+    return error ? file : real.string();
+}
+
+EepromFile::EepromFile(const std::string& file, OnTrouble on_trouble)
+    : file_(real_path(file)), on_trouble_(std::move(on_trouble)) {
+    std::error_code error;
     folder_ = fs::path(file_).parent_path().string();
     const fs::file_status status = fs::status(file_, error);
     if (fs::exists(status) && !fs::is_regular_file(status)) {
@@ -140,7 +141,8 @@ int EepromFile::write_new(std::string& name, std::string_view text) const {
         return errno;
     }
     struct stat old {};
-    const mode_t mode = ::stat(file_.c_str(), &old) == 0 ? old.st_mode & 0777U : mode_t{0644};
+    const mode_t mode =
+        ::stat(file_.c_str(), &old) == 0 ? old.st_mode & 0777U : mode_t{0600};  // a password may be in it
     int failure = ::fchmod(fd.get(), mode) == 0 ? 0 : errno;
     if (failure == 0) {
         failure = write_all(fd.get(), text);

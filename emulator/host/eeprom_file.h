@@ -17,7 +17,7 @@ class EepromFile final : public machine::EepromStore {
     using OnTrouble = std::function<void(std::string_view sentence)>;
 
     /// `file` need not exist: a fresh EEPROM. Throws link::HostError when it could not be written or read.
-    EepromFile(std::string file, OnTrouble on_trouble);
+    EepromFile(const std::string& file, OnTrouble on_trouble);
 
     /// A file that is torn or was edited is renamed to FILE.broken (.broken.2, ...), so that nothing is lost,
     /// and the EEPROM is fresh.
@@ -25,6 +25,8 @@ class EepromFile final : public machine::EepromStore {
     bool save(std::string_view image) override;
 
     const std::string& file() const { return file_; }
+    /// Where the file really is: a symlink stays one, and what it points to is replaced.
+    static std::string real_path(const std::string& file);
 
   private:
     void put_aside(std::string_view why);

@@ -246,7 +246,8 @@ std::string fault_sentence(const fault::FaultStatus& status) {
     if (to_screen == to_board) {
         return name + deeds(to_screen) + " in each direction.";
     }
-    return fmt::format("{}{} to the screen, {} to the board.", name, deeds(to_screen), deeds(to_board));
+    const std::string_view other = status.spec.line == fault::Line::usb ? "host" : "screen";
+    return fmt::format("{}{} to the {}, {} to the board.", name, deeds(to_screen), other, deeds(to_board));
 }
 
 }  // namespace fauxboard::host

@@ -34,6 +34,9 @@ class FaultyLink final : public link::Link, public fault::FaultControl, private 
     void clear() override;
     std::vector<fault::FaultStatus> list() const override { return faults_.list(clock_.now()); }
 
+    /// See fault::FaultLine::on_deed().
+    void on_deed(const std::function<void(const fault::Deed&)>& told) { faults_.on_deed(told); }
+
     void open(link::LinkListener& listener) override;
     void close() override;
     void write(std::string_view message) override;

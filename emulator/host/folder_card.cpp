@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <ctime>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -61,6 +62,29 @@ bool is_file(machine::Volume::Kind kind) {
     return kind == machine::Volume::Kind::file || kind == machine::Volume::Kind::unreadable;
 }
 
+/// As FAT packs date and time: years since 1980, month, day, hours, minutes, pairs of seconds.
+std::uint32_t fat_stamp(std::int64_t local_s) {
+    constexpr std::int64_t first_s = 315'532'800;   // 1980
+    constexpr std::int64_t last_s = 4'354'819'198;  // the end of 2107
+    const std::time_t time = std::clamp(local_s, first_s, last_s);
+    std::tm parts{};
+    ::gmtime_r(&time, &parts);
+    const int packed_date = (parts.tm_year - 80) << 9 | (parts.tm_mon + 1) << 5 | parts.tm_mday;
+    const int packed_time = parts.tm_hour << 11 | parts.tm_min << 5 | parts.tm_sec / 2;
+    return static_cast<std::uint32_t>(packed_date) << 16 | static_cast<std::uint32_t>(packed_time);
+}
+
+/// When it was written last, seconds since 1970 in local time; 0 when that is not known.
+std::int64_t modified_s(int folder, const std::string& name) {
+    struct stat info {};
+    std::tm local{};
+    if (::fstatat(folder, name.c_str(), &info, AT_SYMLINK_NOFOLLOW) != 0 ||
+        ::localtime_r(&info.st_mtime, &local) == nullptr) {
+        return 0;
+    }
+    return info.st_mtime + local.tm_gmtoff;
+}
+
 std::vector<std::string> read_names(DIR* folder) {
     std::vector<std::string> names;
     while (const dirent* entry = names.size() < max_names ? ::readdir(folder) : nullptr) {
@@ -71,15 +95,6 @@ std::vector<std::string> read_names(DIR* folder) {
     }
     std::sort(names.begin(), names.end());
     return names;
-}
-
-/// When the entry was last written to, in nanoseconds; 0 when that cannot be known.
-std::int64_t changed_at(int folder, const std::string& name) {
-    constexpr std::int64_t second = 1'000'000'000;
-    struct stat status {};
-    return ::fstatat(folder, name.c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0
-               ? static_cast<std::int64_t>(status.st_mtim.tv_sec) * second + status.st_mtim.tv_nsec
-               : 0;
 }
 
 }  // namespace
@@ -134,9 +149,9 @@ bool FolderCard::list(std::string_view folder, std::vector<CardEntry>& out) cons
         const Kind kind = count < max_entries ? look_at(fd.get(), name, bytes) : Kind::missing;
         if (kind != Kind::missing) {
             ++count;
-            const std::int64_t changed = changed_at(fd.get(), name);
+            const std::int64_t modified = modified_s(fd.get(), name);
             (kind == Kind::folder ? folders : out)
-                .push_back({std::move(name), kind == Kind::folder, bytes, changed});
+                .push_back({std::move(name), kind == Kind::folder, bytes, fat_stamp(modified), {}, modified});
         }
     }
     std::move(folders.begin(), folders.end(), std::back_inserter(out));
@@ -236,11 +251,21 @@ bool FolderCard::rename(std::string_view from, std::string_view to) {
     if (!old_folder || !new_folder || !is_file(look_at(old_folder.get(), old_name, bytes))) {
         return false;
     }
+    // What is in the file must be on the disk before it has its name: else a power cut of this computer could
+    // leave the name with nothing, or half of it.
+    const UniqueFd file = open_file(from, O_RDONLY);
+    if (!file || ::fsync(file.get()) != 0) {
+        return false;
+    }
     // Something else of that name is not shown, and must stay.
     struct stat info {};
     const bool taken = ::fstatat(new_folder.get(), new_name.c_str(), &info, AT_SYMLINK_NOFOLLOW) == 0;
-    return !(taken && !S_ISREG(info.st_mode)) &&
-           ::renameat(old_folder.get(), old_name.c_str(), new_folder.get(), new_name.c_str()) == 0;
+    if ((taken && !S_ISREG(info.st_mode)) ||
+        ::renameat(old_folder.get(), old_name.c_str(), new_folder.get(), new_name.c_str()) != 0) {
+        return false;
+    }
+    ::fsync(new_folder.get());  // the name itself; some file systems refuse, and there is nothing to do then
+    return true;
 }
 
 bool FolderCard::remove(std::string_view path) {

@@ -2,15 +2,18 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
 #include <system_error>
 #include <utility>
 
+#include "emulator/host/eeprom_file.h"
 #include "emulator/link/host_error.h"
 
 namespace fauxboard::host {
@@ -38,10 +41,14 @@ std::uint64_t checksum(std::uint64_t sequence, std::string_view bytes) {
 
 }  // namespace
 
+std::string JobPlaceFile::beside(const std::string& eeprom) {
+    return EepromFile::real_path(eeprom) + ".job";
+}
+
 JobPlaceFile::JobPlaceFile(std::string file, OnTrouble on_trouble)
     : file_(std::move(file)),
       on_trouble_(std::move(on_trouble)),
-      fd_(::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NONBLOCK | O_NOCTTY, 0644)) {
+      fd_(::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NONBLOCK | O_NOCTTY, 0600)) {
     struct stat what {};
     if (!fd_ || ::fstat(fd_.get(), &what) != 0) {
         throw link::HostError(
@@ -53,6 +60,34 @@ JobPlaceFile::JobPlaceFile(std::string file, OnTrouble on_trouble)
         throw link::HostError(
             fmt::format("{} cannot hold the place of a print: it is no plain file.", file_));
     }
+    claim();
+}
+
+void JobPlaceFile::claim() const {
+    if (::flock(fd_.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+        throw link::HostError(
+            fmt::format("{} is in use by a board that runs. Each board needs an EEPROM of its own.", file_));
+    }
+    if (!is_ours()) {
+        throw link::HostError(fmt::format(
+            "{} cannot hold the place of a print: what is in it is not fauxboard's. Move it away, "
+            "or give the EEPROM another name.",
+            file_));
+    }
+}
+
+/// Whether a slot has our mark, or nothing is there yet. A slot may be torn, even at its mark.
+bool JobPlaceFile::is_ours() const {
+    std::array<char, 2 * slot_bytes + 1> all{};
+    const ssize_t got = ::pread(fd_.get(), all.data(), all.size(), 0);
+    const auto has_mark = [&all](std::size_t at) {
+        Head head;
+        std::memcpy(&head, all.data() + at, sizeof head);
+        return head.mark == mark;
+    };
+    const bool empty = std::all_of(all.begin(), all.end(), [](char c) { return c == 0; });
+    return got >= 0 && got <= static_cast<ssize_t>(2 * slot_bytes) &&
+           (empty || has_mark(0) || has_mark(slot_bytes));
 }
 
 std::optional<std::string> JobPlaceFile::load() {

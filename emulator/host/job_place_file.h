@@ -18,8 +18,9 @@ class JobPlaceFile final : public machine::JobPlaceStore {
   public:
     using OnTrouble = std::function<void(std::string_view sentence)>;
 
-    /// `file` need not exist. Throws link::HostError when it cannot be opened for writing, or is no plain
-    /// file.
+    /// `file` need not exist. Throws link::HostError when it cannot be opened for writing, is no plain file, holds
+    /// what is not ours (which stays as it is), or belongs to a board that runs: two would write over each
+    /// other, here and in the EEPROM beside.
     JobPlaceFile(std::string file, OnTrouble on_trouble);
 
     std::optional<std::string> load() override;
@@ -27,10 +28,14 @@ class JobPlaceFile final : public machine::JobPlaceStore {
     void drop() override;
 
     const std::string& file() const { return file_; }
+    /// The file that goes with an EEPROM's: FILE.job, beside where that really is.
+    static std::string beside(const std::string& eeprom);
 
     static constexpr std::size_t slot_bytes = 1024;
 
   private:
+    void claim() const;
+    bool is_ours() const;
     void write(std::string_view payload);
 
     std::string file_;

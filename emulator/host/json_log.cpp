@@ -6,6 +6,7 @@
 
 #include "emulator/behaviour/wire_text.h"
 #include "protocol/annotate.h"
+#include "protocol/secrets.h"
 
 namespace fauxboard::host {
 namespace {
@@ -47,7 +48,8 @@ void JsonLog::write(SimTime now, std::string_view members) {
 
 void JsonLog::on_received(SimTime now, board::Channel channel, std::string_view line,
                           board::Verdict verdict) {
-    std::string members = line_members(board::other_end(channel), line, protocol::Direction::to_board);
+    std::string members =
+        line_members(board::other_end(channel), protocol::mask_secrets(line), protocol::Direction::to_board);
     members += refusal(verdict);
     write(now, members);
 }

@@ -6,20 +6,17 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "protocol/annotate.h"
+#include "protocol/secrets.h"
 
 namespace fauxboard::host {
 namespace {
 
-constexpr std::string_view cyan = "\x1b[36m";
-constexpr std::string_view green = "\x1b[32m";
-constexpr std::string_view yellow = "\x1b[33m";
-constexpr std::string_view red = "\x1b[31m";
-constexpr std::string_view grey = "\x1b[90m";
-constexpr std::string_view plain = "\x1b[0m";
 constexpr std::size_t words_column = 44;  // longer lines have their words below
 constexpr std::size_t text_column = 28;   // where the line itself starts
+constexpr std::size_t head_width = 14;
 
 std::string words_of(std::string_view line, protocol::Direction direction) {
     return protocol::explain(protocol::decode_line(line, direction));
@@ -44,86 +41,101 @@ LineLog::LineLog(TextOutput& out, Detail detail, double lines_per_second)
       detail_(detail),
       colours_(out.colours()),
       rate_(detail == Detail::verbose ? 0 : lines_per_second),
-      burst_(4 * rate_),
-      tokens_(burst_) {}
+      burst_(4 * rate_) {
+    for (Measure& measure : measures_) {
+        measure.tokens = burst_;
+    }
+}
 
-bool LineLog::passes(SimTime now) {
+bool LineLog::passes(SimTime now, Kind kind) {
     if (rate_ <= 0) {
         return true;
     }
-    tokens_ = std::min(burst_, tokens_ + machine::to_seconds(now - refilled_) * rate_);
-    refilled_ = now;
-    if (tokens_ < 1 || (held_back_ != 0 && tokens_ < burst_ / 4)) {
-        ++held_back_;
+    Measure& measure = measures_[kind];
+    measure.tokens = std::min(burst_, measure.tokens + machine::to_seconds(now - measure.refilled) * rate_);
+    measure.refilled = now;
+    if (measure.tokens < 1 || (measure.held_back != 0 && measure.tokens < burst_ / 4)) {
+        ++measure.held_back;
         return false;
     }
-    finish(now);
-    tokens_ -= 1;
+    tell_held_back(now, kind);
+    measure.tokens -= 1;
     return true;
 }
 
-void LineLog::finish(SimTime now) {
-    if (held_back_ != 0) {
-        const std::string text =
-            fmt::format("{} lines left out of this log, there were too many", held_back_);
-        held_back_ = 0;
-        print(now, grey, "", text, "");
+void LineLog::tell_held_back(SimTime now, Kind kind) {
+    static constexpr std::array<std::string_view, kinds> names{"lines", "warnings", "errors"};
+    if (const std::uint64_t count = std::exchange(measures_[kind].held_back, 0); count != 0) {
+        print(now, Ink::faint, "",
+              fmt::format("{} {} left out of this log, there were too many", count, names[kind]), "");
     }
 }
 
-void LineLog::print(SimTime now, std::string_view colour, std::string_view head, std::string_view text,
+void LineLog::finish(SimTime now) {
+    for (const Kind kind : {talk, warnings, errors}) {
+        tell_held_back(now, kind);
+    }
+}
+
+void LineLog::print(SimTime now, Ink ink, std::string_view head, std::string_view text,
                     std::string_view words) {
-    text_.clear();
-    const auto out = std::back_inserter(text_);
-    fmt::format_to(out, "{:10.3f}  {}{:<14}{}  ", machine::to_seconds(now), colours_ ? colour : "", head,
-                   colours_ ? plain : "");
+    StyledLine line(colours_);
+    line.add(fmt::format("{:10.3f}  ", machine::to_seconds(now))).add(head, ink, head_width).add("  ");
     if (words.empty()) {
-        fmt::format_to(out, "{}\n", text);
+        line.add(text);
     } else {
         if (text.size() > words_column) {
-            fmt::format_to(out, "{}\n{:{}}", text, "", text_column);
+            line.add(text).end().add("", Ink::plain, text_column);
         } else {
-            fmt::format_to(out, "{:<{}}  ", text, words_column);
+            line.add(text, Ink::plain, words_column).add("  ");
         }
-        fmt::format_to(out, "{}{}{}\n", colours_ ? grey : "", words, colours_ ? plain : "");
+        line.add(words, Ink::faint);
     }
-    out_.write(text_);
+    out_.write(line.end());
 }
 
-void LineLog::on_received(SimTime now, board::Channel channel, std::string_view line,
+void LineLog::on_received(SimTime now, board::Channel channel, std::string_view received,
                           board::Verdict verdict) {
     if (detail_ == Detail::quiet || !passes(now)) {
         return;
     }
+    const std::string line = protocol::mask_secrets(received);
     std::string words = words_of(line, protocol::Direction::to_board);
     words += words_of(verdict);
-    print(now, verdict == board::Verdict::accepted ? cyan : red,
+    print(now, verdict == board::Verdict::accepted ? Ink::incoming : Ink::error,
           fmt::format("{} → board", other_end(channel)), behaviour::as_ascii(line), words);
 }
 
 void LineLog::on_sent(SimTime now, board::Channel channel, std::string_view line) {
     if (detail_ != Detail::quiet && passes(now)) {
         const bool screen = channel == board::Channel::main;
-        print(now, green, fmt::format("board → {}", other_end(channel)), behaviour::as_ascii(line),
+        print(now, Ink::outgoing, fmt::format("board → {}", other_end(channel)), behaviour::as_ascii(line),
               screen ? words_of(line, protocol::Direction::to_screen) : std::string());
     }
 }
 
 void LineLog::on_notice(SimTime now, board::Level level, std::string_view text) {
-    static constexpr std::string_view names[] = {"debug", "note", "warning", "error"};
-    static constexpr std::string_view colours[] = {grey, grey, yellow, red};
+    struct Row {
+        std::string_view name;
+        Ink ink;
+        Kind kind;
+    };
+    static constexpr std::array<Row, 4> rows{{{"debug", Ink::faint, talk},
+                                              {"note", Ink::faint, talk},
+                                              {"warning", Ink::warning, warnings},
+                                              {"error", Ink::error, errors}}};
     const board::Level least = detail_ == Detail::quiet    ? board::Level::warning
                                : detail_ == Detail::normal ? board::Level::info
                                                            : board::Level::debug;
-    if (level >= least && passes(now)) {
-        const auto index = static_cast<std::size_t>(level);
-        print(now, colours[index], names[index], text, "");
+    const Row& row = rows[static_cast<std::size_t>(level)];
+    if (level >= least && passes(now, row.kind)) {
+        print(now, row.ink, row.name, text, "");
     }
 }
 
 void LineLog::on_link(SimTime now, link::LinkState, std::string_view why) {
     if (detail_ != Detail::quiet && passes(now)) {
-        print(now, yellow, "link", why, "");
+        print(now, Ink::warning, "link", why, "");
     }
 }
 

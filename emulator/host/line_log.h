@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 
 #include "emulator/host/live_observer.h"
+#include "emulator/host/plain_text.h"
 #include "emulator/host/text_output.h"
 
 namespace fauxboard::host {
@@ -23,7 +25,8 @@ class LineLog final : public LiveObserver {
     /// What the main line's other end is called from here on: "screen" until told.
     void call_peer(std::string_view name) { peer_ = name; }
     /// `lines_per_second` (of virtual time) is what passes for long in Detail::normal; bursts of four times
-    /// as many lines do, too. Zero: no limit.
+    /// as many lines do, too. Zero: no limit. Warnings have a measure of their own, and errors another: no
+    /// flood of lines keeps them from being said.
     LineLog(TextOutput& out, Detail detail, double lines_per_second);
 
     void on_received(SimTime now, board::Channel channel, std::string_view line,
@@ -35,9 +38,18 @@ class LineLog final : public LiveObserver {
     void finish(SimTime now);
 
   private:
-    bool passes(SimTime now);
-    void print(SimTime now, std::string_view colour, std::string_view head, std::string_view text,
-               std::string_view words);
+    /// What may be said of one kind of lines, and what was not.
+    struct Measure {
+        double tokens = 0;
+        SimTime refilled{0};
+        std::uint64_t held_back = 0;
+    };
+    enum Kind : std::uint8_t { talk, warnings, errors };
+    static constexpr std::size_t kinds = 3;
+
+    bool passes(SimTime now, Kind kind = talk);
+    void tell_held_back(SimTime now, Kind kind);
+    void print(SimTime now, Ink ink, std::string_view head, std::string_view text, std::string_view words);
 
     std::string_view other_end(board::Channel channel) const {
         return channel == board::Channel::main ? std::string_view(peer_) : board::other_end(channel);
@@ -49,10 +61,7 @@ class LineLog final : public LiveObserver {
     bool colours_;
     double rate_;
     double burst_;
-    double tokens_;
-    SimTime refilled_{0};
-    std::uint64_t held_back_ = 0;
-    std::string text_;
+    std::array<Measure, kinds> measures_;
 };
 
 }  // namespace fauxboard::host

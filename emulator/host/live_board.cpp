@@ -38,6 +38,10 @@ void LiveBoard::send_output() {
     if (!board_.output().empty()) {
         link_.write(board_.output());
     }
+    if (const bool crowded = board_.crowded(board::Channel::main); crowded != held_) {
+        held_ = crowded;
+        link_.hold(held_);
+    }
     for (const auto& line : side_lines_) {
         line->send_output();
     }

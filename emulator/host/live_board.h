@@ -58,12 +58,17 @@ class LiveBoard final : public link::LinkListener {
             if (const std::string_view output = board_.board_.output(channel_); !output.empty()) {
                 link_.write(output);
             }
+            if (const bool crowded = board_.board_.crowded(channel_); crowded != held_) {
+                held_ = crowded;
+                link_.hold(held_);
+            }
         }
 
       private:
         LiveBoard& board_;
         board::Channel channel_;
         link::Link& link_;
+        bool held_ = false;  ///< its sender waits until there is room
     };
 
     void take(board::Channel channel, std::string_view bytes);
@@ -85,6 +90,7 @@ class LiveBoard final : public link::LinkListener {
     SimTime end_{0};
     SimTime due_{0};                    ///< what the board's last advance() returned
     SimTime show_due_{machine::never};  ///< what the follower last returned
+    bool held_ = false;                 ///< the sender of the main line waits until there is room
     bool running_ = false;
 };
 

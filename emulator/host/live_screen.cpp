@@ -39,8 +39,8 @@ void LiveScreen::lead(screen::Tour* tour) {
     alarm_->at(clock_.now());
 }
 
-screen::PressResult LiveScreen::press(std::string_view path) {
-    screen::PressResult result = screen_.press(path, now());
+screen::PressResult LiveScreen::press(std::string_view path, std::size_t row, std::optional<double> input) {
+    screen::PressResult result = screen_.press(path, row, input, now());
     send_output();
     alarm_->at(clock_.now());
     return result;

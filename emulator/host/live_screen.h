@@ -43,7 +43,7 @@ class LiveScreen final : public link::LinkListener {
     /// Lets a tour press the buttons from now on; null: nobody does. The tour outlives that.
     void lead(screen::Tour* tour);
     /// As Screen::press() and Screen::touch(), now.
-    screen::PressResult press(std::string_view path);
+    screen::PressResult press(std::string_view path, std::size_t row = 0, std::optional<double> input = {});
     screen::PressResult touch(std::size_t button, std::size_t row, std::optional<double> input);
 
     /// Time of the screen.

@@ -2,30 +2,15 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "emulator/behaviour/nearest.h"
+#include "emulator/host/text_file.h"
 
 namespace fauxboard::host {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::uintmax_t max_profile_bytes = 4U * 1024 * 1024;
-
-std::optional<behaviour::SourceText> read(const fs::path& file) {
-    std::error_code error;
-    if (!fs::is_regular_file(file, error) || fs::file_size(file, error) > max_profile_bytes) {
-        return std::nullopt;
-    }
-    std::ifstream in(file, std::ios::binary);
-    if (!in) {
-        return std::nullopt;
-    }
-    std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-    return behaviour::SourceText{file.string(), std::move(text)};
-}
 
 bool is_path(std::string_view name) {
     return name.find('/') != std::string_view::npos || name.ends_with(".json");
@@ -34,25 +19,24 @@ bool is_path(std::string_view name) {
 std::optional<behaviour::SourceText> find(std::string_view name, std::string_view from) {
     const fs::path beside = from.empty() ? fs::path{} : fs::path(from).parent_path();
     if (is_path(name)) {
-        return read(from.empty() ? fs::path(name) : beside / name);
+        return read_source(from.empty() ? fs::path(name) : beside / name);
     }
     const std::string file = std::string(name) + ".json";
     if (!from.empty()) {
-        if (auto found = read(beside / file)) {
+        if (auto found = read_source(beside / file)) {
             return found;
         }
     }
     for (const fs::path& folder : profile_folders()) {
-        if (auto found = read(folder / file)) {
+        if (auto found = read_source(folder / file)) {
             return found;
         }
     }
     return std::nullopt;
 }
 
-}  // namespace
-
-std::vector<fs::path> profile_folders() {
+/// The folders of FAUXBOARD_PROFILES, as they are named there.
+std::vector<fs::path> named_folders() {
     std::vector<fs::path> folders;
     if (const char* list = std::getenv("FAUXBOARD_PROFILES"); list != nullptr) {
         std::string_view rest(list);
@@ -64,8 +48,42 @@ std::vector<fs::path> profile_folders() {
             rest.remove_prefix(std::min(colon + 1, rest.size()));
         }
     }
-    folders.emplace_back(FAUXBOARD_SOURCE_PROFILES);
-    folders.emplace_back(FAUXBOARD_INSTALLED_PROFILES);
+    return folders;
+}
+
+}  // namespace
+
+std::optional<behaviour::SourceText> read_source(const fs::path& file) {
+    FileText found = read_text_file(file);
+    if (!found.trouble.empty()) {
+        behaviour::Problem problem;
+        problem.file = file.string();
+        problem.message = std::move(found.trouble);
+        throw behaviour::ProfileError({problem});
+    }
+    return found.text ? std::optional(behaviour::SourceText{file.string(), *std::move(found.text)})
+                      : std::nullopt;
+}
+
+std::vector<fs::path> profile_folders() {
+    std::vector<fs::path> folders = named_folders();
+    std::error_code error;
+    const fs::path program = fs::read_symlink("/proc/self/exe", error);
+    const fs::path beside = (program.parent_path() / FAUXBOARD_PROFILES_FROM_PROGRAM).lexically_normal();
+    for (const fs::path& folder : {beside, fs::path(FAUXBOARD_SOURCE_PROFILES)}) {
+        if (fs::is_directory(folder, error)) {
+            folders.push_back(folder);
+        }
+    }
+    return folders;
+}
+
+std::vector<fs::path> missing_profile_folders() {
+    std::vector<fs::path> folders = named_folders();
+    std::erase_if(folders, [](const fs::path& folder) {
+        std::error_code error;
+        return fs::is_directory(folder, error);
+    });
     return folders;
 }
 
@@ -81,7 +99,7 @@ std::shared_ptr<const behaviour::Profile> load_profile_by_name(std::string_view 
     behaviour::Problem problem;
     problem.file = std::string(name);
     if (is_path(name)) {
-        problem.message = "no such file, or it cannot be read, or it is larger than 4 MiB";
+        problem.message = "there is no such file";
     } else {
         const std::vector<ProfileEntry> entries = list_profiles();
         std::vector<std::string_view> names;
@@ -103,15 +121,16 @@ std::vector<ProfileEntry> list_profiles(const std::vector<fs::path>& folders) {
     std::vector<ProfileEntry> entries;
     for (const fs::path& folder : folders) {
         std::error_code error;
-        for (const auto& item : fs::directory_iterator(folder, error)) {
+        for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+            const fs::directory_entry& item = *at;
             if (item.path().extension() != ".json") {
                 continue;
             }
-            const auto source = read(item.path());
-            if (!source) {
+            const FileText source = read_text_file(item.path());
+            if (!source.text) {
                 continue;
             }
-            const auto json = behaviour::Json::parse(source->text, nullptr, false);
+            const auto json = behaviour::Json::parse(*source.text, nullptr, false);
             if (!json.is_object() || !json.contains("name") || !json["name"].is_string()) {
                 continue;
             }

@@ -11,12 +11,20 @@
 namespace fauxboard::host {
 
 /// Where profiles are looked for by name, first hit wins: the folders of the environment variable
-/// FAUXBOARD_PROFILES (parted by ':'), the folder the program was built from, the folder it was installed to.
+/// FAUXBOARD_PROFILES (parted by ':'), what was installed with the program (found from where the program lies, so the
+/// installed tree can be moved), the folder it was built from.
 std::vector<std::filesystem::path> profile_folders();
+/// Those that FAUXBOARD_PROFILES names and that are no folders.
+std::vector<std::filesystem::path> missing_profile_folders();
+
+/// The text of a profile, screen, scenario or schema. Nothing where there is no such file. Throws
+/// behaviour::ProfileError for one that cannot be read: what is there and broken is not passed over in favour
+/// of another one.
+std::optional<behaviour::SourceText> read_source(const std::filesystem::path& file);
 
 /// Reads profiles from files. A name with a slash or ending in ".json" is a path (relative to the file that
 /// extends it, or to the current folder); any other is looked for beside the extending file and in
-/// profile_folders().
+/// profile_folders(). The finder throws behaviour::ProfileError for a file that is there and cannot be read.
 behaviour::SourceFinder profile_finder();
 
 /// Loads a profile by name or path. Throws behaviour::ProfileError, also when there is no such file; then the

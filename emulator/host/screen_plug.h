@@ -28,7 +28,13 @@ class ScreenPlug {
     void start();
     void close();
     const screen::Screen& screen() const { return screen_; }
-    screen::PressResult press(std::string_view path) { return live_->press(path); }
+    /// See screen::Screen::press().
+    screen::PressResult press(std::string_view path, std::size_t row = 0, std::optional<double> input = {}) {
+        return live_->press(path, row, input);
+    }
+    screen::PressResult touch(std::size_t button, std::size_t row) {
+        return live_->touch(button, row, std::nullopt);
+    }
 
   private:
     class End;

@@ -57,7 +57,7 @@ behaviour::SourceText find_script(std::string_view name) {
     const std::vector<ProfileEntry> entries = list_scripts();
     std::vector<std::string_view> names;
     if (is_path(name)) {
-        problem.message = "no such file, or it cannot be read, or it is larger than 4 MiB";
+        problem.message = "there is no such file";
     } else {
         problem.message = "there is no scenario of this name; known:";
         for (const ProfileEntry& entry : entries) {
@@ -71,12 +71,19 @@ behaviour::SourceText find_script(std::string_view name) {
 
 std::shared_ptr<const script::Scenario> check_script(const behaviour::SourceText& source) {
     const script::Head head = script::read_head(source);
-    script::Cast cast;
-    cast.profile = load_profile_by_name(head.profile.empty() ? default_profile : head.profile);
-    if (!head.screen.empty()) {
-        cast.screen = load_screen_by_name(head.screen);
-    }
+    const script::Cast cast = make_cast(head.profile.empty() ? default_profile : head.profile, head.screen);
     return script::load_scenario(source, script_finder(), cast);
+}
+
+script::Cast make_cast(std::string_view profile, std::string_view screen) {
+    script::Cast out;
+    out.profile = load_profile_by_name(profile);
+    if (!screen.empty()) {
+        out.screen = load_screen_by_name(screen);
+    } else if (!out.profile->screen.empty()) {
+        out.screen = load_own_screen(out.profile->screen);
+    }
+    return out;
 }
 
 }  // namespace fauxboard::host

@@ -22,6 +22,10 @@ behaviour::SourceText find_script(std::string_view name);
 /// All scenarios in the folders `scenarios` of profile_folders(), by name.
 std::vector<ProfileEntry> list_scripts();
 
+/// A board and the screen that plays with it: the one at its line that is named, else the one that is part of
+/// it. Throws behaviour::ProfileError.
+script::Cast make_cast(std::string_view profile, std::string_view screen);
+
 /// Checks a scenario against the board and the screen that it names itself. Throws behaviour::ProfileError.
 std::shared_ptr<const script::Scenario> check_script(const behaviour::SourceText& source);
 

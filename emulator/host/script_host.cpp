@@ -1,5 +1,8 @@
 #include "emulator/host/script_host.h"
 
+#include <fmt/format.h>
+
+#include <fstream>
 #include <utility>
 
 namespace fauxboard::host {
@@ -8,6 +11,13 @@ ScriptHost::ScriptHost(Parts parts, std::shared_ptr<const script::Scenario> scen
     : parts_(std::move(parts)),
       player_(std::move(scenario), speed.max ? 0 : 1 / speed.factor),
       alarm_(parts_.clock.make_alarm([this] { turn(); })) {}
+
+std::string ScriptHost::keep_picture(const std::string& file, std::string_view png) {
+    std::ofstream out(file, std::ios::binary);
+    out << png;
+    out.flush();
+    return out ? std::string{} : fmt::format("{} cannot be written", file);
+}
 
 void ScriptHost::start() {
     real_start_ = real_time();

@@ -17,8 +17,8 @@ namespace fauxboard::host {
 /// board. Everything happens on the event loop's thread.
 class ScriptHost final : public LiveObserver, private script::Stage {
   public:
-    /// All but `screen` must be there; they outlive this object. `on_done` is called once, from inside a
-    /// turn.
+    /// All but `screen` and `display` must be there; they outlive this object. `on_done` is called once, from
+    /// inside a turn.
     struct Parts {
         LiveBoard& live;
         Clock& clock;
@@ -26,6 +26,7 @@ class ScriptHost final : public LiveObserver, private script::Stage {
         ScreenPlug* screen;
         std::function<void()> on_done;
         std::function<void(std::string_view words)> say;
+        control::Display* display = nullptr;  ///< what shows the board; null: nothing does
     };
     ScriptHost(Parts parts, std::shared_ptr<const script::Scenario> scenario, Speed speed);
 
@@ -50,6 +51,8 @@ class ScriptHost final : public LiveObserver, private script::Stage {
     }
     screen::PressResult press(std::string_view path) override { return parts_.screen->press(path); }
     void note(std::string_view words) override { parts_.say(words); }
+    control::Display* display() override { return parts_.display; }
+    std::string keep_picture(const std::string& file, std::string_view png) override;
 
     void turn();
     void wake();

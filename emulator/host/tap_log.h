@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "emulator/host/live_observer.h"
+#include "emulator/host/plain_text.h"
 #include "emulator/host/text_output.h"
 
 namespace fauxboard::host {
@@ -25,8 +26,7 @@ class TapLog final : public LiveObserver {
     void on_link(SimTime now, link::LinkState state, std::string_view why) override;
 
   private:
-    void print(SimTime now, std::string_view colour, std::string_view head, std::string_view text,
-               std::string_view words);
+    void print(SimTime now, Ink ink, std::string_view head, std::string_view text, std::string_view words);
 
     TextOutput& out_;
     Options options_;

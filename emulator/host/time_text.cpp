@@ -36,8 +36,8 @@ std::optional<Speed> parse_speed(std::string_view text) {
 }
 
 std::optional<machine::SimTime> parse_duration(std::string_view text) {
-    static constexpr std::array<std::pair<std::string_view, double>, 6> units{
-        {{"", 1}, {"s", 1}, {"ms", 1e-3}, {"us", 1e-6}, {"min", 60}, {"h", 3600}}};
+    static constexpr std::array<std::pair<std::string_view, double>, 7> units{
+        {{"", 1}, {"s", 1}, {"ms", 1e-3}, {"us", 1e-6}, {"min", 60}, {"h", 3600}, {"d", 86'400}}};
     const auto number = take_number(text);
     if (!number) {
         return std::nullopt;

@@ -18,8 +18,8 @@ struct Speed {
 /// "1", "0.5", "max". Nothing for anything else and for numbers out of bounds.
 std::optional<Speed> parse_speed(std::string_view text);
 
-/// "500ms", "10s", "5min", "24h", a plain number is seconds; "1.5h" too. Nothing for anything else, for
-/// negative and for more than 100 years.
+/// "500ms", "10s", "5min", "24h", "30d", a plain number is seconds; "1.5h" too. Nothing for anything else,
+/// for negative and for more than 100 years.
 std::optional<machine::SimTime> parse_duration(std::string_view text);
 
 }  // namespace fauxboard::host

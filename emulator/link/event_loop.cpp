@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -257,6 +258,11 @@ extern "C" void tell_signal(int number) {
 }
 
 }  // namespace
+
+std::string signal_name(int number) {
+    const char* const name = ::sigabbrev_np(number);
+    return name == nullptr ? fmt::format("signal {}", number) : fmt::format("SIG{}", name);
+}
 
 Signals::Signals(EventLoop& loop, std::initializer_list<int> numbers, std::function<void(int)> on_signal)
     : on_signal_(std::move(on_signal)), watch_(loop, [this] { take(); }) {

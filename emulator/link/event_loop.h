@@ -10,6 +10,7 @@
 #include <functional>
 #include <initializer_list>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "emulator/link/unique_fd.h"
@@ -158,6 +159,12 @@ class Timer {
     Clock::time_point when_ = unset;
     std::uint64_t round_ = 0;  ///< in which it rang last
 };
+
+/// All that asks a program to end and lets it: what it has made (a name in the file system) must go with it.
+inline constexpr std::initializer_list<int> ending_signals{SIGINT,  SIGTERM, SIGHUP,
+                                                           SIGQUIT, SIGUSR1, SIGUSR2};
+/// "SIGTERM"; "signal N" for one that is none of ending_signals.
+std::string signal_name(int number);
 
 /// Signals as events of the loop. While this lives they do nothing else to the process but interrupt calls
 /// that block; what came and was not handled until its end is swallowed. One object for a signal at a time.

@@ -42,6 +42,11 @@ HostPort parse_host_port(const std::string& text) {
     return result;
 }
 
+bool reaches_network(const std::string& path) {
+    const std::string host = parse_host_port(path).host;
+    return !(host.starts_with("127.") || host == "::1" || host.starts_with("::ffff:127."));
+}
+
 std::string format_host_port(const std::string& host, std::uint16_t port) {
     return host.find(':') == std::string::npos ? fmt::format("{}:{}", host, port)
                                                : fmt::format("[{}]:{}", host, port);

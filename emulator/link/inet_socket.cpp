@@ -76,9 +76,18 @@ UniqueFd make_inet_socket(const SocketAddress& address, int type) {
     return UniqueFd(::socket(address.get()->sa_family, type | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
 }
 
-void send_at_once(int fd) {
-    const int on = 1;
-    (void)::setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);  // slower without, but not wrong
+void prepare_line(int fd) {
+    constexpr int probe_s = 5;
+    constexpr int probes = 3;
+    const auto set = [fd](int level, int option, int value) {
+        (void)::setsockopt(fd, level, option, &value, sizeof value);  // worse without, but not wrong
+    };
+    set(IPPROTO_TCP, TCP_NODELAY, 1);
+    set(SOL_SOCKET, SO_KEEPALIVE, 1);
+    set(IPPROTO_TCP, TCP_KEEPIDLE, lost_peer_s - probes * probe_s);
+    set(IPPROTO_TCP, TCP_KEEPINTVL, probe_s);
+    set(IPPROTO_TCP, TCP_KEEPCNT, probes);
+    set(IPPROTO_TCP, TCP_USER_TIMEOUT, lost_peer_s * 1000);  // the same for what was sent and not taken
 }
 
 }  // namespace fauxboard::link

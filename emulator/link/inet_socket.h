@@ -39,7 +39,10 @@ std::vector<SocketAddress> resolve(const std::string& host_port, int type);
 /// Not blocking. None, with errno, if the system gives none.
 UniqueFd make_inet_socket(const SocketAddress& address, int type);
 
-/// Without Nagle's wait: a message is small and awaited.
-void send_at_once(int fd);
+/// A connection as a line needs it: without Nagle's wait, since a message is small and awaited; and one whose
+/// other end has vanished without a word (its cable was pulled) ends within `lost_peer_s`, so that the line
+/// is free for the next.
+void prepare_line(int fd);
+inline constexpr int lost_peer_s = 35;
 
 }  // namespace fauxboard::link

@@ -91,11 +91,24 @@ class Link {
     virtual std::string path() const = 0;      ///< "/dev/pts/5", "/dev/ttyUSB0", "127.0.0.1:4000"
 };
 
+/// A line that leads nowhere: nobody is ever there, and what is written to it is lost. Its kind is "none".
+std::unique_ptr<Link> make_no_link();
+
+/// Whether a path() of TCP or UDP can be reached from other computers: any address that is not loopback.
+bool reaches_network(const std::string& path);
+
 /// A pseudo-terminal of our own. `link_name`: a symlink to it, removed by close(); "" for none. An existing
 /// name is replaced only if it is a symlink that points nowhere. What is written before the first peer opens
 /// it is kept for that peer, up to `backlog_limit`; what is written while nobody has it open later on is
 /// lost, and a new peer never reads what was meant for the one before.
-std::unique_ptr<Link> make_pty_link(EventLoop& loop, std::string link_name);
+///
+/// A host's port drops what came before it was opened: `backlog` false. With `baud` a peer that opens it at
+/// another speed is told of: on a real line it would read nothing sensible.
+struct PtyUse {
+    unsigned baud = 0;  ///< bit/s; 0: any
+    bool backlog = true;
+};
+std::unique_ptr<Link> make_pty_link(EventLoop& loop, std::string link_name, PtyUse use = {});
 
 /// A port that exists: a serial port, or somebody else's pseudo-terminal (/dev/pts/N, or a symlink to one).
 /// 8N1, no flow control, `baud` in bit/s. A port that vanishes is tried again every 500 ms; symlinks are

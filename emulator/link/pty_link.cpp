@@ -26,8 +26,9 @@ namespace {
 /// the master, where Linux applies them to the slave.
 class PtyLink final : public StreamLink {
   public:
-    PtyLink(EventLoop& loop, std::string link_name, bool watch_peers)
+    PtyLink(EventLoop& loop, std::string link_name, bool watch_peers, PtyUse use)
         : StreamLink(loop),
+          use_(use),
           watch_events_(loop, [this] { on_watch(); }),
           name_(std::move(link_name)),
           watch_peers_(watch_peers) {}
@@ -43,7 +44,8 @@ class PtyLink final : public StreamLink {
     void open_device() override;
     void close_device() override;
     void on_end(const std::string& why) override;
-    bool keeps_backlog() const override { return true; }
+    bool keeps_backlog() const override { return use_.backlog; }
+    ssize_t read_some(int fd, char* data, std::size_t size) override;
     bool short_read_is_last() const override { return true; }  // a master is read by bytes, never by lines
 
     void open_master();
@@ -51,8 +53,11 @@ class PtyLink final : public StreamLink {
     bool make_raw() const;
     void forget_unread() const;
     void on_watch();
+    void look_at_speed();
 
-    Watch watch_events_;  ///< borrows watch_'s descriptor
+    PtyUse use_;
+    bool looked_ = false;  ///< at the speed of the peer that is there
+    Watch watch_events_;   ///< borrows watch_'s descriptor
     std::string name_;
     bool watch_peers_;
     std::string path_;
@@ -129,6 +134,7 @@ void PtyLink::on_watch() {
         return note(error.what());
     }
     // One that has come and gone is heard, but it is not the one that the backlog is for.
+    looked_ = false;
     if (!nobody) go_up(fmt::format("{} was opened at its other end", path_));
 }
 
@@ -142,6 +148,37 @@ void PtyLink::on_end(const std::string& /*why*/) {
 }
 
 // ---- settings ----
+
+ssize_t PtyLink::read_some(int fd, char* data, std::size_t size) {
+    const ssize_t count = StreamLink::read_some(fd, data, size);
+    if (count > 0 && !looked_) look_at_speed();
+    return count;
+}
+
+// When its first bytes come a peer has set its speed, if it ever does: a new pseudo-terminal has 38400.
+void PtyLink::look_at_speed() {
+    looked_ = true;
+    termios settings{};
+    if (use_.baud == 0 || ::tcgetattr(master_.get(), &settings) != 0) return;
+    constexpr std::array<std::pair<speed_t, unsigned>, 11> speeds{{{B2400, 2400},
+                                                                   {B4800, 4800},
+                                                                   {B9600, 9600},
+                                                                   {B19200, 19200},
+                                                                   {B57600, 57600},
+                                                                   {B115200, 115200},
+                                                                   {B230400, 230400},
+                                                                   {B460800, 460800},
+                                                                   {B500000, 500000},
+                                                                   {B921600, 921600},
+                                                                   {B1000000, 1000000}}};
+    for (const auto& [code, baud] : speeds) {
+        if (code == ::cfgetospeed(&settings) && baud != use_.baud) {
+            note(fmt::format(
+                "{} was opened at {} baud, the board has {}: a real line would bring nothing but garbage",
+                path_, baud, use_.baud));
+        }
+    }
+}
 
 // No echo, no translation of line ends; whatever the last peer made of it. Drops what the slave has not read.
 bool PtyLink::make_raw() const {
@@ -164,12 +201,12 @@ void PtyLink::forget_unread() const {
 
 }  // namespace
 
-std::unique_ptr<Link> make_pty_link(EventLoop& loop, std::string link_name, bool watch_peers) {
-    return std::make_unique<PtyLink>(loop, std::move(link_name), watch_peers);
+std::unique_ptr<Link> make_pty_link(EventLoop& loop, std::string link_name, bool watch_peers, PtyUse use) {
+    return std::make_unique<PtyLink>(loop, std::move(link_name), watch_peers, use);
 }
 
-std::unique_ptr<Link> make_pty_link(EventLoop& loop, std::string link_name) {
-    return make_pty_link(loop, std::move(link_name), true);
+std::unique_ptr<Link> make_pty_link(EventLoop& loop, std::string link_name, PtyUse use) {
+    return make_pty_link(loop, std::move(link_name), true, use);
 }
 
 }  // namespace fauxboard::link

@@ -9,8 +9,9 @@
 
 namespace fauxboard::link {
 
-/// As make_pty_link(loop, link_name). Without `watch_peers` it works as on a system that has no inotify
+/// As make_pty_link(loop, link_name, use). Without `watch_peers` it works as on a system that has no inotify
 /// watch left: always up, since there is no telling whether anybody is there.
-std::unique_ptr<Link> make_pty_link(EventLoop& loop, std::string link_name, bool watch_peers);
+std::unique_ptr<Link> make_pty_link(EventLoop& loop, std::string link_name, bool watch_peers,
+                                    PtyUse use = {});
 
 }  // namespace fauxboard::link

@@ -124,7 +124,7 @@ void TcpConnectLink::failed() {
 }
 
 void TcpConnectLink::connected() {
-    send_at_once(fd_.get());
+    prepare_line(fd_.get());
     attach(fd_.get());
     go_up(was_up() ? fmt::format("connected to {} again", path()) : fmt::format("connected to {}", path()));
 }

@@ -8,6 +8,7 @@
 
 #include "emulator/link/acceptor.h"
 #include "emulator/link/inet_socket.h"
+#include "emulator/link/listening_socket.h"
 #include "emulator/link/socket_io.h"
 #include "emulator/link/stream_link.h"
 
@@ -58,17 +59,9 @@ class TcpListenLink final : public StreamLink {
 };
 
 void TcpListenLink::open_device() {
-    const SocketAddress address = resolve(host_port_, SOCK_STREAM).front();
-    UniqueFd fd = make_inet_socket(address, SOCK_STREAM);
-    const int on = 1;  // else a restart would fail for a minute after the last connection
-    if (!fd || ::setsockopt(fd.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on) != 0 ||
-        ::bind(fd.get(), address.get(), address.size()) != 0 || ::listen(fd.get(), SOMAXCONN) != 0) {
-        const int error = errno;
-        throw LinkError(fmt::format("Cannot listen on {}: {}. Choose another port, or 0 for a free one.",
-                                    address.text(), error_text(error)));
-    }
-    path_ = SocketAddress::of(fd.get()).text();
-    acceptor_.start(std::move(fd));
+    ListeningSocket socket = listen_tcp(host_port_);
+    path_ = std::move(socket.text);
+    acceptor_.start(std::move(socket.fd));
     go_waiting(fmt::format("listening on {}; nobody has connected yet", path_));
 }
 
@@ -83,7 +76,7 @@ void TcpListenLink::close_device() {
 void TcpListenLink::on_client(UniqueFd fd) {
     const SocketAddress peer = SocketAddress::of_peer(fd.get());
     if (!peer.known()) return;  // gone again
-    send_at_once(fd.get());
+    prepare_line(fd.get());
     Client client{std::move(fd), peer.text()};
     if (!client_.fd) return serve(std::move(client));
     // One that reconnects may be seen here before its former connection's end has been read.

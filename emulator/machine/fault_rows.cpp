@@ -107,7 +107,7 @@ constexpr auto table = std::to_array<FaultInfo>({
      {},
      never,
      [](Machine& p, Values) { p.hang(true); },
-     [](Machine& p, Values) { p.request_reset(); },
+     [](Machine& p, Values) { p.request_reset(3); },
      [](const Machine& p, Values) { return !p.hung(); }},
     {"board_reset",
      "the board restarts; a job is lost",
@@ -115,7 +115,7 @@ constexpr auto table = std::to_array<FaultInfo>({
      "",
      {},
      never,
-     [](Machine& p, Values) { p.request_reset(); },
+     [](Machine& p, Values) { p.request_reset(1); },
      nullptr,
      nullptr},
     {"brown_out",
@@ -129,7 +129,7 @@ constexpr auto table = std::to_array<FaultInfo>({
          p.events.raise(event("power.lost"));
          p.hang(false);
      },
-     [](Machine& p, Values) { p.request_reset(); },
+     [](Machine& p, Values) { p.request_reset(2); },
      [](const Machine& p, Values) { return !p.hung(); }},
     {"chunk_lost",
      "the network loses pieces of files, up or down, or the answers to them: their sender has to notice",

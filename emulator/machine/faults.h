@@ -17,7 +17,7 @@ namespace fauxboard::machine {
 class Machine;
 struct Kind;
 
-enum class FaultUnit : std::uint8_t { choice, percent, celsius };
+enum class FaultUnit : std::uint8_t { choice, number, percent, celsius };
 
 /// One number or word that says more about a fault. A choice is the index of its word.
 struct FaultParameter {

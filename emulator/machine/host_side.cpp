@@ -3,21 +3,18 @@
 #include "emulator/machine/event_rows.h"
 
 namespace fauxboard::machine {
-namespace {
-
-constexpr std::size_t shown_bytes = 96;
-
-}  // namespace
 
 void HostSide::power_on() {
     running_ = acknowledged_ = false;
-    last_line = 0;
-    resends = commands = 0;
+    speaker = usb_port;
+    lines = {};
+    commands = 0;
     command_.clear();
 }
 
-void HostSide::begin(std::string_view command, SimTime /*now*/) {
-    command_.assign(command.substr(0, shown_bytes));
+void HostSide::begin(std::size_t from, std::string_view command, SimTime /*now*/) {
+    command_.assign(command);
+    speaker = from;
     running_ = true;
     acknowledged_ = false;
     ++commands;

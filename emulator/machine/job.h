@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "emulator/machine/sim_time.h"
 
@@ -70,8 +71,15 @@ class Job {
     double progress() const;
     int layer = 0;
     int layers = 0;
-    double estimate_s = 0;        ///< what the slicer thinks it takes; 0 when it did not say
-    std::string message;          ///< of the last M117
+    double estimate_s = 0;  ///< what the slicer thinks it takes; 0 when it did not say
+    std::string message;    ///< of the last M117
+    /// A part of the file that is done more than once (M808): where it begins, and how often still; 0: for
+    /// ever.
+    struct Loop {
+        std::uint64_t byte = 0;
+        int times = 0;
+    };
+    std::vector<Loop> loops;
     bool waits_for_user = false;  ///< M0, M1, M600
 
   private:

@@ -42,11 +42,16 @@ void Machine::power_on(SimTime now) {
     host_side_.power_on();
     wifi = Wifi{};
     loop = MainLoop{};
-    refusing = hung_ = reset_ = false;
+    refusing = hung_ = reset_ = dying_ = false;
+    commands.begun = nullptr;
+    user_until_ = never;
     host_heard_.reset();
     power_on_parts(now);
     events.clear();
-    card_check_ = storage.usable(0) ? never : now + card_check_delay;
+    const double found_s = config_->card.found_s;
+    card_check_ = found_s > 0          ? now + from_seconds(found_s)
+                  : !storage.usable(0) ? now + card_check_delay
+                                       : never;
     const SimTime rescan = from_seconds(config_->card.rescan_s);
     card_rescan_ = rescan > SimTime{0} && storage.usable(0) ? now + rescan : never;
     card_news_ = storage.usable(0);
@@ -67,6 +72,9 @@ void Machine::advance(SimTime now) {
             timer_ = never;
             events.raise(event("timer.over"));
         }
+        if (user_until_ <= next) {
+            user_continues();
+        }
         run_parts(next);
     }
     let_pass(now);
@@ -76,13 +84,13 @@ void Machine::advance(SimTime now) {
 
 SimTime Machine::next_event() const {
     const SimTime fault = faults.next_event();
-    return hung_ ? fault : std::min({next_of_parts(), card_check_, card_rescan_, timer_, fault});
+    return hung_ ? fault : std::min({next_of_parts(), card_check_, card_rescan_, timer_, user_until_, fault});
 }
 
 void Machine::look_after_card(SimTime now) {
     if (card_check_ <= now) {
         card_check_ = never;
-        events.raise(event("card.missing"));
+        events.raise(storage.usable(0) ? event("card.found") : event("card.missing"));
     }
     if (card_rescan_ <= now) {
         card_rescan_ = never;
@@ -145,6 +153,24 @@ const std::vector<CardEntry>& Machine::listing() {
         listed_folder_ = storage.folder();
     }
     return listing_;
+}
+
+const std::vector<CardEntry>& Machine::files() {
+    constexpr std::size_t most_files = 4096;
+    storage.files(files_, most_files);
+    return files_;
+}
+
+void Machine::kill() {
+    emergency_stop();
+    dying_ = true;
+    events.raise(event("board.killed"));
+}
+
+void Machine::die_if_told() {
+    if (std::exchange(dying_, false)) {
+        hang(false);
+    }
 }
 
 void Machine::hang(bool powered) {

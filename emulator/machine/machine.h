@@ -63,24 +63,31 @@ class Machine : public JobControl {
     /// A card was read in, or taken out, since card_told().
     bool card_news() const { return card_news_; }
     void card_told() { card_news_ = false; }
+    /// Every file of the chosen disk; the buffer is reused.
+    const std::vector<CardEntry>& files();
 
     // The job. What a kind does at each turn of it is among the functions it overrides.
     // ------------------------------------------------------------------------
-    /// Raises file.selected, file.missing or file.unreadable.
-    void select_file(std::string_view name);
+    /// Raises file.selected, file.missing or file.unreadable. `replaces`: a job that is under way is dropped
+    /// for it, instead of the file being refused.
+    void select_file(std::string_view name, bool replaces = false);
     bool start_or_resume_job();
     /// False when there is no paused job.
     virtual bool resume_job();
     void pause_job(bool park) override;
     void pause_job() { pause_job(true); }
     /// M26: where the file goes on; the place of a job that is under way changes at once.
-    virtual void seek_job(double byte) = 0;
-    bool stop_job();
+    void seek_job(double byte) override = 0;
+    bool stop_job() override;
     bool finish_job() override;
     /// A finished job is no longer shown. False when there is none.
     bool close_job() override;
     /// M112: the job and all that moves, shines or heats, off at once.
     void emergency_stop() override;
+    void wait_for_user(double seconds) override;
+    void kill() override;
+    /// Called when what the board says at its end has been said.
+    void die_if_told();
     /// M0, M108: a job that waits for the user goes on, and so does a board that waits without one.
     void user_continues();
 
@@ -90,8 +97,16 @@ class Machine : public JobControl {
     /// stays so, or (`powered` false) gets no more current.
     void hang(bool powered);
     bool hung() const { return hung_; }
+    /// A request that the machine makes of itself and that is due, for the board to carry out without an
+    /// answer: a line of a file. Nothing when there is none; it may be empty.
+    virtual std::optional<std::string> take_request() { return std::nullopt; }
     /// The board is to be reset, by whoever owns it; asking takes it.
-    void request_reset() { reset_ = true; }
+    void request_reset(int why) {
+        reset_ = true;
+        restart = why;
+    }
+    /// Why the board started: 0 switched on, 1 its reset, 2 the supply, 3 its watchdog.
+    int restart = 0;
     bool take_reset();
     /// Raises timer.over after a time; a timer that runs is set anew.
     void start_timer(SimTime time) { timer_ = now_ + time; }
@@ -109,6 +124,7 @@ class Machine : public JobControl {
     Transfer transfer{storage};
     Job job;
     MainLoop loop;
+    Commands commands;
     Wifi wifi;
     Faults faults{*this};
     bool refusing = false;  ///< files are not selected or started, as while a job is under way
@@ -143,6 +159,8 @@ class Machine : public JobControl {
     /// The program stands still: see hang().
     virtual void hang_parts(bool powered) = 0;
 
+    /// Another file is selected in place of one that is being printed.
+    virtual void job_gives_way() {}
     /// Another file is selected, or none is any more: what was read of the one before is forgotten.
     virtual void forget_file() {}
     /// Whether the selected file can be printed.
@@ -166,13 +184,16 @@ class Machine : public JobControl {
     HostSide& host_side_;
     std::optional<BuiltInVolume> built_in_;
     std::vector<CardEntry> listing_;
+    std::vector<CardEntry> files_;
     const Volume* listed_ = nullptr;  ///< what listing_ shows, and which folder of it, if it cannot change
     std::string listed_folder_;
     SimTime now_{0};
-    SimTime card_check_ = never;  ///< when the board finds out that there is no card
+    SimTime card_check_ = never;  ///< when the board finds out whether there is a card
     SimTime card_rescan_ = never;
     SimTime timer_ = never;
     bool card_news_ = false;
+    SimTime user_until_ = never;  ///< when the user is no longer waited for
+    bool dying_ = false;
     bool hung_ = false;
     bool reset_ = false;
     std::optional<SimTime> host_heard_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ struct CardConfig {
     bool present = true;
     bool way_back = true;       ///< the list of a folder begins with the way back to its parent
     bool ignore_case = false;   ///< names are found whatever their case, as on a FAT disk
+    bool short_names = false;   ///< files are listed, and named, with eight and three characters
+    bool long_names = true;     ///< where they are, the long names are taken as well
+    double found_s = 0;         ///< after power-on the board tells then that a card is there; 0: it does not
     unsigned max_listed = 64;   ///< entries told in one list; the A30 screen's table ends at 64
     bool newest_first = false;  ///< in order of date, so that a list that is cut keeps the newest
     bool folders = true;        ///< folders are shown
@@ -36,15 +40,33 @@ struct CardConfig {
     std::vector<BuiltInEntry> entries;
 };
 
+/// The lines that are spoken as a host speaks.
+struct HostConfig {
+    /// A command that takes longer than this raises `host.busy`, and again each time; 0: never.
+    double busy_s = 2;
+    unsigned queue_lines = 4;  ///< commands that a host believes to have room for (advanced acknowledgements)
+    unsigned line_chars = 511;  ///< of a line that count; the rest is dropped
+    /// A line with the last good number, or the one before, is passed over without a word (Marlin 2.1: it was
+    /// on its way when it was asked for again); without this it is asked for again.
+    bool drops_repeated = false;
+    bool judges_unnumbered = false;  ///< a line with a checksum must have a number
+    bool first_star_ends = false;    ///< a command ends at its first star, not at that of its checksum
+    bool numbers_uploads = false;    ///< what is written to a file (M28) must be numbered
+    /// Commands that are carried out at once are looked for in every byte that comes in, numbered or not.
+    bool emergency_parser = false;
+};
+
 /// What a profile can say about a machine of any kind; a kind derives from it and adds its own.
 struct MachineConfig {
     virtual ~MachineConfig() = default;
     Identity identity;
     CardConfig card;
+    HostConfig host;
     bool udisk_port = false;
     /// A finished job is shown as an idle board, with its progress, until the profile closes it, and its file
     /// has to be selected anew.
     bool ends_idle = false;
+    std::size_t eeprom_bytes = 0;  ///< of a chip that is known byte by byte; 0: it keeps values
 };
 
 }  // namespace fauxboard::machine

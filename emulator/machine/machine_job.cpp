@@ -7,7 +7,13 @@
 
 namespace fauxboard::machine {
 
-void Machine::select_file(std::string_view name) {
+void Machine::select_file(std::string_view name, bool replaces) {
+    storage.asked = name.substr(name.rfind('/') + 1);
+    if (replaces && !refusing && job.stop()) {
+        forget_file();
+        job_gives_way();
+        events.raise(event("job.stopped"));
+    }
     if (job.active() || refusing) {
         events.raise(event("job.refused"));
         return;
@@ -97,7 +103,13 @@ void Machine::emergency_stop() {
     all_off(job.stop());
 }
 
+void Machine::wait_for_user(double seconds) {
+    job.waits_for_user = true;
+    user_until_ = seconds > 0 ? now_ + from_seconds(seconds) : never;
+}
+
 void Machine::user_continues() {
+    user_until_ = never;
     if (job.waits_for_user && !resume_job()) {
         job.waits_for_user = false;
     }

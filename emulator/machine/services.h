@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,6 +21,17 @@ class EepromStore {
     virtual bool save(std::string_view image) = 0;
 };
 
+/// The EEPROM of a board that is known byte by byte, as the chip has it.
+class EepromCells {
+  public:
+    virtual ~EepromCells() = default;
+    /// All its bytes; nothing when it is fresh.
+    virtual std::optional<std::string> load() = 0;
+    /// Some bytes have other values from now on. Whatever happens meanwhile, each has its old or its new one,
+    /// and none has its new one before those ahead of it have.
+    virtual void store(std::size_t address, std::string_view bytes) = 0;
+};
+
 /// Where the place of a job outlives the board. What the bytes say is the machine's business; more
 /// than 900 of them may count as none. keep() is called for every move: it must be quick, and a kill at any
 /// moment must leave the place kept before or the new one.
@@ -37,6 +49,7 @@ struct Services {
     Volume* sd = nullptr;
     Volume* udisk = nullptr;
     EepromStore* eeprom = nullptr;
+    EepromCells* eeprom_cells = nullptr;  ///< instead, where MachineConfig::eeprom_bytes says so
     JobPlaceStore* job_place = nullptr;
 };
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "emulator/machine/card_names.h"
+#include "emulator/machine/short_names.h"
 
 namespace fauxboard::machine {
 namespace {
@@ -31,7 +32,7 @@ std::string_view without_volume(std::string_view name) {
 }
 
 /// Spells each part of the path as the disk does. False when it holds no such file or folder.
-bool respell(const Volume& volume, std::string& path) {
+bool respell(const Volume& volume, const Storage::Naming& naming, std::string& path) {
     std::string out;
     std::vector<CardEntry> entries;
     for (std::size_t at = 0; at <= path.size();) {
@@ -40,12 +41,17 @@ bool respell(const Volume& volume, std::string& path) {
         at = slash + 1;
         entries.clear();
         volume.list(out, entries);
-        const auto hit = std::find_if(entries.begin(), entries.end(),
-                                      [&](const CardEntry& e) { return same_letters(e.name, part); });
-        if (hit == entries.end()) {
+        const std::vector<std::string> shorts =
+            naming.short_names ? short_names(entries) : std::vector<std::string>{};
+        std::size_t hit = 0;
+        while (hit < entries.size() && !((!shorts.empty() && same_letters(shorts[hit], part)) ||
+                                         (naming.long_names && same_letters(entries[hit].name, part)))) {
+            ++hit;
+        }
+        if (hit == entries.size()) {
             return false;
         }
-        out += (out.empty() ? "" : "/") + hit->name;
+        out += (out.empty() ? "" : "/") + entries[hit].name;
     }
     path = std::move(out);
     return true;
@@ -66,7 +72,7 @@ void arrange(std::vector<CardEntry>& entries, const CardConfig& config) {
     });
     if (config.newest_first) {
         std::stable_sort(entries.begin(), entries.end(),
-                         [](const CardEntry& a, const CardEntry& b) { return a.changed > b.changed; });
+                         [](const CardEntry& a, const CardEntry& b) { return a.modified_s > b.modified_s; });
     }
     for (CardEntry& entry : entries) {
         if (config.name_bytes != 0 && entry.name.size() > config.name_bytes) {
@@ -164,12 +170,51 @@ void Storage::listing(std::vector<CardEntry>& out, unsigned limit) const {
     volumes_[index(chosen_)]->list(folder_, out);  // a folder that vanished meanwhile shows nothing
     arrange(out, *config_);
     if (config_->way_back && !folder_.empty()) {
-        out.insert(out.begin(),
-                   {std::string(way_back) + "/" + std::string(last_part(folder_)), true, 0, 0, {}});
+        out.insert(out.begin(), {std::string(way_back) + "/" + std::string(last_part(folder_)), true, 0});
     }
     if (out.size() > limit) {
         out.resize(limit);
     }
+}
+
+void Storage::files(std::vector<CardEntry>& out, std::size_t limit) const {
+    out.clear();
+    if (usable(chosen_)) {
+        std::size_t folders_left = 1000;
+        add_files({}, {}, limit, folders_left, out);
+    }
+}
+
+void Storage::add_files(const std::string& folder, const std::string& shown, std::size_t limit,
+                        std::size_t& folders_left, std::vector<CardEntry>& out) const {
+    std::vector<CardEntry> entries;
+    volumes_[index(chosen_)]->list(folder, entries);
+    const std::vector<std::string> shorts =
+        naming_.short_names ? short_names(entries) : std::vector<std::string>{};
+    for (std::size_t i = 0; i < entries.size() && out.size() < limit; ++i) {
+        CardEntry& entry = entries[i];
+        std::string path = folder.empty() ? entry.name : folder + "/" + entry.name;
+        const std::string& name = shorts.empty() ? entry.name : shorts[i];
+        std::string listed = shown.empty() ? name : shown + "/" + name;
+        if (path.size() > max_path_bytes || (!entry.folder && !shorts.empty() && !is_printable(name))) {
+            continue;
+        }
+        if (!entry.folder) {
+            entry.name = std::move(listed);
+            entry.long_name = std::move(path);
+            out.push_back(std::move(entry));
+        } else if (folders_left > 0) {
+            --folders_left;
+            add_files(path, listed, limit, folders_left, out);
+        }
+    }
+}
+
+std::string Storage::long_path(std::string_view name) const {
+    std::string path;
+    const bool there = usable(chosen_) && clean_path({}, name, path) && !path.empty() &&
+                       respell(*volumes_[index(chosen_)], naming_, path);
+    return there ? "/" + path : std::string();
 }
 
 Volume::Kind Storage::look(int disk, std::string_view path) const {
@@ -192,8 +237,9 @@ Storage::Found Storage::find(std::string_view name) const {
         if (candidate.empty() || !clean_path(folder_, candidate, path) || path.empty()) {
             return false;
         }
-        found.kind = volume.look(path, found.bytes);
-        if (found.kind == Volume::Kind::missing && config_->ignore_case && respell(volume, path)) {
+        const bool as_spelled = !naming_.short_names || naming_.long_names;
+        found.kind = as_spelled ? volume.look(path, found.bytes) : Volume::Kind::missing;
+        if (found.kind == Volume::Kind::missing && naming_.ignore_case && respell(volume, naming_, path)) {
             found.kind = volume.look(path, found.bytes);
         }
         found.kind = found.kind == Volume::Kind::file ? file_trouble_ : found.kind;
@@ -203,10 +249,10 @@ Storage::Found Storage::find(std::string_view name) const {
     if (look(name)) {
         return found;
     }
-    const std::size_t star = name.rfind('*');
-    if (star != std::string_view::npos &&
-        name.find_first_not_of("0123456789", star + 1) == std::string_view::npos) {
-        look(name.substr(0, star));
+    const std::size_t mark = name.find_last_of("* ");
+    if (mark != std::string_view::npos &&
+        name.find_first_not_of("0123456789", mark + 1) == std::string_view::npos) {
+        look(name.substr(0, mark));
     }
     return found;
 }
@@ -291,13 +337,22 @@ bool Storage::path_for_writing(std::string_view name, std::string& path) const {
     if (!usable(chosen_) || name.ends_with('/') || !clean_path({}, name, path) || path.empty()) {
         return false;
     }
+    if (naming_.short_names && !naming_.long_names && !is_short_name(last_part(path))) {
+        return false;
+    }
     const Volume& volume = *volumes_[index(chosen_)];
     if (std::string folder(parent(path));
-        config_->ignore_case && !folder.empty() && respell(volume, folder)) {
+        naming_.ignore_case && !folder.empty() && respell(volume, naming_, folder)) {
         path = folder + "/" + std::string(last_part(path));
     }
     const Volume::Kind kind = volume.look(path, bytes);
     return kind == Volume::Kind::missing || kind == Volume::Kind::file;
+}
+
+std::string unfinished_path(const Volume& disk, const std::string& path) {
+    std::uint64_t bytes = 0;
+    const bool is_free = disk.look(path + ".temp", bytes) == Volume::Kind::missing;
+    return path + (is_free ? ".temp" : ".fauxboard-temp");
 }
 
 bool Storage::write(std::string_view name, std::string_view bytes) {
@@ -306,7 +361,7 @@ bool Storage::write(std::string_view name, std::string_view bytes) {
     if (disk == nullptr || !path_for_writing(name, path)) {
         return false;
     }
-    const std::string beside = path + std::string(unfinished_ending);
+    const std::string beside = unfinished_path(*disk, path);
     return disk->create(beside) && disk->append(beside, 0, bytes) && disk->rename(beside, path);
 }
 

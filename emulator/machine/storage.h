@@ -16,8 +16,11 @@ struct CardEntry {
     std::string name;
     bool folder = false;
     std::uint64_t bytes = 0;
-    std::int64_t changed = 0;  ///< when, in any unit that grows; equal where the disk does not know
-    std::string file{};        ///< its real name, where `name` is another one
+    /// When it was written, as FAT packs date and time; of a disk that does not know, some day.
+    std::uint32_t stamp = 0x5A21'0000;
+    std::string long_name = {};   ///< of files(): the same as its name where the disk knows no other
+    std::int64_t modified_s = 0;  ///< since 1970, local time; 0: not known
+    std::string file = {};        ///< its real name, where `name` is another one
 };
 
 /// A disk as the board sees it. Paths are relative to its root, parts parted by '/', never starting with one,
@@ -75,7 +78,16 @@ class Storage {
     static constexpr std::size_t disk_count = 2;  // 0 SD card, 1 U-disk
 
     /// How the board lists and finds; as CardConfig says.
-    void configure(const CardConfig& config) { config_ = &config; }
+    struct Naming {
+        bool way_back = true;
+        bool ignore_case = false;
+        bool short_names = false;  ///< of eight and three characters, as a FAT disk has them
+        bool long_names = true;    ///< where there are short ones: the long ones are taken as well
+    };
+    void configure(const CardConfig& config) {
+        config_ = &config;
+        naming_ = {config.way_back, config.ignore_case, config.short_names, config.long_names};
+    }
 
     void attach(int disk, Volume* volume);  ///< nullptr takes it out
     void set_state(int disk, DiskState state) { states_[index(disk)] = state; }
@@ -100,6 +112,9 @@ class Storage {
     /// What the screen shows of the folder: the way back first unless at the root, at most `limit` entries in
     /// all.
     void listing(std::vector<CardEntry>& out, unsigned limit) const;
+    /// Every file of the chosen disk, of all folders, its name with the way to it ("SUB/B.GCO"); at most
+    /// `limit`.
+    void files(std::vector<CardEntry>& out, std::size_t limit) const;
 
     /// The disk in the slot, if it is usable and its files can be read.
     const Volume* volume(int disk) const {
@@ -136,12 +151,21 @@ class Storage {
         std::string shown{};  ///< what the list calls it, if that is not its name
     };
     /// The file that `name` means, relative to the folder shown. A checksum that a screen kept in the name
-    /// ("x.gco*74") is taken off when there is no file that is really called so.
+    /// ("x.gco*74"), or a size that a host did ("x.gco 1234", as M20 lists it), is taken off when there is no
+    /// file that is really called so.
     Found find(std::string_view name) const;
+    std::string asked;      ///< the last part of the name that was last asked for, as it was spelled
+    std::string looked_up;  ///< what long_path() was last asked for gave
+    /// The long path of a file or folder that is named by its short ones (M33); empty: there is none.
+    std::string long_path(std::string_view name) const;
 
   private:
     Found find_listed(std::string_view name) const;
     static std::size_t index(int disk) { return disk == 1 ? 1 : 0; }
+    /// Adds the files of a folder, listed under the name `shown`, and of those in it: a path has at most 255
+    /// bytes, so that they are no deeper than 128.
+    void add_files(const std::string& folder, const std::string& shown, std::size_t limit,
+                   std::size_t& folders_left, std::vector<CardEntry>& out) const;
     std::array<Volume*, disk_count> volumes_{};
     std::array<DiskState, disk_count> states_{DiskState::removed, DiskState::removed};
     Volume::Kind file_trouble_ = Volume::Kind::file;
@@ -149,10 +173,12 @@ class Storage {
     std::string folder_;
     static const CardConfig plain_card;
     const CardConfig* config_ = &plain_card;
+    Naming naming_;
 };
 
-/// What stands behind the name of a file that is being written.
-inline constexpr std::string_view unfinished_ending = ".temp";
+/// What stands behind the name of a file that is being written: ".temp" as real boards have it; where the
+/// disk has something of that name, which may be the user's, an ending that nobody but us gives.
+std::string unfinished_path(const Volume& disk, const std::string& path);
 
 /// Joins `name` to `folder` and cleans the result: volume names ("SD1:") and double slashes go. False when it
 /// would leave the root, holds a control character, or is longer than 255 bytes.

@@ -12,10 +12,6 @@ bool Transfer::say(Outcome result) {
     return result == Outcome::done;
 }
 
-std::string Transfer::beside() const {
-    return path_ + std::string(unfinished_ending);
-}
-
 void Transfer::power_on() {
     mode_ = Mode::none;
     outcome = Outcome::done;
@@ -24,6 +20,7 @@ void Transfer::power_on() {
     asker = serial_line;
     last_block.size = 0;
     path_.clear();
+    beside_.clear();
     replaced_.clear();
     existed_ = false;
     position_ = bytes_ = 0;
@@ -31,7 +28,7 @@ void Transfer::power_on() {
 
 void Transfer::drop() {
     if (Volume* const disk = storage_.writable(disk_); mode_ == Mode::upload && disk != nullptr) {
-        disk->remove(beside());
+        disk->remove(beside_);
     }
     mode_ = Mode::none;
 }
@@ -85,7 +82,8 @@ bool Transfer::upload(SimTime now, Peer peer, std::string_view name, std::string
     if (existed_ && replaced_ == in_use) {
         return say(Outcome::in_use);
     }
-    if (!disk->create(beside())) {
+    beside_ = unfinished_path(*disk, path_);
+    if (!disk->create(beside_)) {
         return say(Outcome::write_failed);
     }
     mode_ = Mode::upload;
@@ -103,8 +101,7 @@ bool Transfer::piece(SimTime now, Peer peer, bool intact, std::uint64_t offset, 
         return say(Outcome::resend);
     }
     Volume* const disk = storage_.writable(disk_);
-    if (disk == nullptr || bytes.size() > max_bytes - position_ ||
-        !disk->append(beside(), position_, bytes)) {
+    if (disk == nullptr || bytes.size() > max_bytes - position_ || !disk->append(beside_, position_, bytes)) {
         return say(Outcome::write_failed);
     }
     position_ += bytes.size();
@@ -120,7 +117,7 @@ bool Transfer::finish(SimTime now, Peer peer, std::string_view in_use) {
         drop();
         return say(Outcome::in_use);
     }
-    if (disk == nullptr || !disk->rename(beside(), path_)) {
+    if (disk == nullptr || !disk->rename(beside_, path_)) {
         drop();
         return say(Outcome::write_failed);
     }

@@ -116,7 +116,6 @@ class Transfer {
     /// Whether `peer` may go on with what is open.
     bool may_go_on(SimTime now, Peer peer, Mode mode);
     void drop();
-    std::string beside() const;
     /// Whether the disk has the file already, and where.
     bool look_for(std::string_view name);
 
@@ -128,6 +127,7 @@ class Transfer {
     std::string name_;
     std::string asked_;
     std::string path_;
+    std::string beside_;    ///< where an upload lies until it is finished
     std::string replaced_;  ///< path of the file that the upload takes the place of
     bool existed_ = false;
     std::uint64_t position_ = 0;

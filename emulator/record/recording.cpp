@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <functional>
 #include <istream>
 #include <nlohmann/json.hpp>
 
@@ -59,18 +60,25 @@ bool RecordingReader::read_text() {
 
 std::optional<RecordedLine> RecordingReader::next() {
     while (read_text()) {
-        if (text_.find_first_not_of(" \t\r") != std::string::npos) {
-            return parse();
+        if (text_.find_first_not_of(" \t\r") == std::string::npos) {
+            continue;
+        }
+        if (auto line = parse()) {
+            return line;
         }
     }
     return std::nullopt;
 }
 
-RecordedLine RecordingReader::parse() {
+/// Nothing for a note, which `decode` makes of what a host program logged of itself.
+std::optional<RecordedLine> RecordingReader::parse() {
     const auto entry = nlohmann::json::parse(text_, nullptr, false);
     if (!entry.is_object()) {
         fail(entry.is_discarded() ? "not JSON; expected one JSON object a line"
                                   : found(entry) + "; expected an object with t, from, and line or do");
+    }
+    if (entry.contains("note") && !entry.contains("t")) {
+        return std::nullopt;
     }
     const auto value = [&](const char* key) -> const nlohmann::json& {
         const auto hit = entry.find(key);
@@ -110,6 +118,31 @@ RecordedLine RecordingReader::parse() {
         out.peer = peer.get<std::uint64_t>();
     }
     return out;
+}
+
+std::optional<RecordedLine> OrderedRecording::next() {
+    while (!ended_ && heap_.size() < window) {
+        auto line = reader_.next();
+        if (!line) {
+            ended_ = true;
+            break;
+        }
+        if (any_ && line->t < last_) {
+            throw RecordingError(reader_.name(), reader_.line(),
+                                 fmt::format("its time lies before that of {} entries ahead of it", window));
+        }
+        heap_.push_back({*std::move(line), read_++});
+        std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
+    }
+    if (heap_.empty()) {
+        return std::nullopt;
+    }
+    std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
+    RecordedLine line = std::move(heap_.back().line);
+    heap_.pop_back();
+    last_ = line.t;
+    any_ = true;
+    return line;
 }
 
 std::vector<RecordedLine> load_recording(std::istream& in, std::string_view name) {

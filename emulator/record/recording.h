@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "emulator/machine/sim_time.h"
@@ -50,7 +51,7 @@ class RecordingError : public std::runtime_error {
 ///     {"t": 16.451778, "from": "screen", "line": "N-0 M2134 FW:V1.02.xx*84"}
 ///     {"t": 135.5, "from": "world", "do": "filament in"}
 ///     {"t": 140.5, "from": "network", "peer": 1, "datagram": "M28 box.ctb\r\n"}
-/// `t` is in seconds, bytes stand as the characters of the same number (0xFF is \u00ff), blank lines are
+/// `t` is in seconds, objects with a "note" and without it are passed over, bytes stand as the characters of the same number (0xFF is \u00ff), blank lines are
 /// skipped, keys other than these are left alone. A line of the file may have 64 KiB; memory does not grow
 /// with the file.
 class RecordingReader {
@@ -62,16 +63,42 @@ class RecordingReader {
     std::optional<RecordedLine> next();
     /// Line of the file that next() looked at last; 1 is the first.
     std::size_t line() const { return line_; }
+    const std::string& name() const { return name_; }
 
   private:
     bool read_text();
-    RecordedLine parse();
+    std::optional<RecordedLine> parse();
     [[noreturn]] void fail(std::string_view message) const;
 
     std::istream& in_;
     std::string name_;
     std::string text_;
     std::size_t line_ = 0;
+};
+
+/// A recording's entries by time, of which no more than `window` are held: a small recording may be in any
+/// order, a large one must be in order but for so many entries.
+class OrderedRecording {
+  public:
+    static constexpr std::size_t window = 50'000;
+    explicit OrderedRecording(RecordingReader reader) : reader_(std::move(reader)) {}
+    /// The next entry, or nothing at the end. Throws RecordingError, also for one that comes too late.
+    std::optional<RecordedLine> next();
+
+  private:
+    struct Held {
+        RecordedLine line;
+        std::uint64_t number;  ///< entries of the same time stay in their order
+        bool operator>(const Held& other) const {
+            return std::pair(line.t, number) > std::pair(other.line.t, other.number);
+        }
+    };
+    RecordingReader reader_;
+    std::vector<Held> heap_;
+    std::uint64_t read_ = 0;
+    machine::SimTime last_{0};
+    bool any_ = false;
+    bool ended_ = false;
 };
 
 /// A whole recording, ordered by time (entries of the same time stay in the order of the file). Throws

@@ -18,42 +18,69 @@ constexpr std::size_t max_notices = 1000;
 
 class NoticeKeeper final : public board::Observer {
   public:
-    explicit NoticeKeeper(std::vector<ReplayNotice>& out) : out_(out) {}
+    explicit NoticeKeeper(std::function<void(ReplayNotice)> out) : out_(std::move(out)) {}
     void on_received(SimTime, board::Channel, std::string_view, board::Verdict) override {}
     void on_sent(SimTime, board::Channel, std::string_view) override {}
     void on_notice(SimTime now, board::Level level, std::string_view text) override {
-        if (out_.size() < max_notices) {
-            out_.push_back({now, level, std::string(text)});
+        if (told_ < max_notices) {
+            ++told_;
+            out_({now, level, std::string(text)});
         }
     }
 
   private:
-    std::vector<ReplayNotice>& out_;
+    std::function<void(ReplayNotice)> out_;
+    std::size_t told_ = 0;
 };
 
 /// One run. The board's clock starts with its power-on; `shift_` is where that lies in the recording.
 class Player {
   public:
-    Player(std::shared_ptr<const behaviour::Profile> profile, const ReplayOptions& options)
-        : keeper_(result_.notices),
+    Player(std::shared_ptr<const behaviour::Profile> profile, const ReplayTalk& talk,
+           const ReplayOptions& options)
+        : talk_(talk),
+          keeper_([this](ReplayNotice notice) { tell(std::move(notice)); }),
           wire_(profile->line.baud),
           board_(std::move(profile), options.services, {true, options.seed, &keeper_}) {}
 
-    ReplayResult play(const std::vector<RecordedLine>& recording, SimTime tail);
+    board::Counters play(SimTime tail);
 
   private:
-    void align(const std::vector<RecordedLine>& recording);
+    void align();
+    void say(RecordedLine line);
+    void tell(ReplayNotice notice);
     void advance(SimTime now);
     void take_output();
     void do_entry(SimTime now, const RecordedLine& entry);
     void do_to_machine(SimTime now, const RecordedLine& entry);
 
-    ReplayResult result_;
+    const ReplayTalk& talk_;
     NoticeKeeper keeper_;
     WireClock wire_;
     board::Board board_;
     SimTime shift_{0};
+    bool aligned_ = false;
+    std::vector<RecordedLine> early_;  ///< said before shift_ was known
+    std::vector<ReplayNotice> early_notices_;
 };
+
+void Player::say(RecordedLine line) {
+    if (!aligned_) {
+        early_.push_back(std::move(line));
+        return;
+    }
+    line.t += shift_;
+    talk_.on_line(line);
+}
+
+void Player::tell(ReplayNotice notice) {
+    if (!aligned_) {
+        early_notices_.push_back(std::move(notice));
+    } else if (talk_.on_notice) {
+        notice.t += shift_;
+        talk_.on_notice(notice);
+    }
+}
 
 /// Cuts what the board handed over into lines and notes when each has gone over the wire.
 void Player::take_output() {
@@ -63,12 +90,12 @@ void Player::take_output() {
         std::string_view line = rest.substr(0, size);
         const SimTime end = wire_.send(board_.time(), line.size());
         line = line.substr(0, line.find_last_not_of("\r\n") + 1);
-        result_.lines.push_back({end + shift_, From::board, std::string(line)});
+        say({end, From::board, std::string(line)});
         rest.remove_prefix(size);
     }
     board_.clear_output();
     board_.take_datagrams([this](std::uint64_t peer, std::string_view bytes) {
-        result_.lines.push_back({board_.time() + shift_, From::module, std::string(bytes), peer});
+        say({board_.time(), From::module, std::string(bytes), peer});
     });
 }
 
@@ -79,19 +106,22 @@ void Player::advance(SimTime now) {
     }
 }
 
-void Player::align(const std::vector<RecordedLine>& recording) {
-    const auto first = std::find_if(recording.begin(), recording.end(),
-                                    [](const RecordedLine& line) { return line.from == From::board; });
-    if (first == recording.end()) {
-        return;
-    }
-    advance(SimTime{0});
-    if (!result_.lines.empty()) {
-        shift_ = first->t - result_.lines.front().t;
-        for (RecordedLine& line : result_.lines) {
-            line.t += shift_;
+void Player::align() {
+    if (talk_.first_board_line) {
+        advance(SimTime{0});
+        if (!early_.empty()) {
+            shift_ = *talk_.first_board_line - early_.front().t;
         }
     }
+    aligned_ = true;
+    for (RecordedLine& line : early_) {
+        say(std::move(line));
+    }
+    early_.clear();
+    for (ReplayNotice& notice : early_notices_) {
+        tell(std::move(notice));
+    }
+    early_notices_.clear();
 }
 
 void Player::do_to_machine(SimTime now, const RecordedLine& entry) {
@@ -127,31 +157,48 @@ void Player::do_entry(SimTime now, const RecordedLine& entry) {
     }
 }
 
-ReplayResult Player::play(const std::vector<RecordedLine>& recording, SimTime tail) {
+board::Counters Player::play(SimTime tail) {
     board_.power_on(SimTime{0});
-    align(recording);
+    align();
     SimTime end{0};
-    for (const RecordedLine& entry : recording) {
-        const SimTime now = entry.t - shift_;
+    while (const auto entry = talk_.next()) {
+        const SimTime now = entry->t - shift_;
+        if (now - end > longest_gap) {
+            throw ReplayError(fmt::format(
+                "at {:.6f} s: nothing for {} days before; a recording is silent for 366 days at most",
+                machine::to_seconds(entry->t),
+                std::chrono::duration_cast<std::chrono::hours>(now - end).count() / 24));
+        }
         end = std::max(end, now);
         if (now >= SimTime{0}) {
             advance(now);
-            do_entry(now, entry);
+            do_entry(now, *entry);
         }
     }
     advance(end + tail);
-    for (ReplayNotice& notice : result_.notices) {
-        notice.t += shift_;
-    }
-    result_.counters = board_.counters();
-    return std::move(result_);
+    return board_.counters();
 }
 
 }  // namespace
 
+board::Counters replay(std::shared_ptr<const behaviour::Profile> profile, const ReplayTalk& talk,
+                       const ReplayOptions& options) {
+    return Player(std::move(profile), talk, options).play(options.tail);
+}
+
 ReplayResult replay(std::shared_ptr<const behaviour::Profile> profile,
                     const std::vector<RecordedLine>& recording, const ReplayOptions& options) {
-    return Player(std::move(profile), options).play(recording, options.tail);
+    ReplayResult result;
+    auto at = recording.begin();
+    const auto first = std::find_if(recording.begin(), recording.end(),
+                                    [](const RecordedLine& line) { return line.from == From::board; });
+    ReplayTalk talk;
+    talk.next = [&] { return at == recording.end() ? std::nullopt : std::optional(*at++); };
+    talk.first_board_line = first == recording.end() ? std::nullopt : std::optional(first->t);
+    talk.on_line = [&](const RecordedLine& line) { result.lines.push_back(line); };
+    talk.on_notice = [&](const ReplayNotice& notice) { result.notices.push_back(notice); };
+    result.counters = replay(std::move(profile), talk, options);
+    return result;
 }
 
 }  // namespace fauxboard::record

@@ -25,8 +25,7 @@ class Judge {
         if (taken.judgement.verdict != Verdict::ok) {
             mark(taken.judgement.verdict, taken.judgement.why, marks);
         }
-        if (taken.judgement.verdict == Verdict::would_crash ||
-            (taken.how != nullptr && taken.how->restarts)) {
+        if (taken.restarts()) {
             values_ = profile_->values.power_on();
         }
     }

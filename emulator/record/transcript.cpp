@@ -6,6 +6,7 @@
 #include <sstream>
 #include <utility>
 
+#include "emulator/record/host_log.h"
 #include "protocol/annotate.h"
 
 namespace fauxboard::record {
@@ -176,19 +177,57 @@ TranscriptEntry TranscriptReader::parse() {
     if (text_[text_.find_first_not_of(" \t")] == '{') {
         return parse_json();
     }
-    TranscriptEntry out = entry(Form::clock);
-    if (parse_clock(out)) {
+    TranscriptEntry out = entry(Form::raw);
+    if (form_ != Form::json && parse_host_log(out)) {
+        return out;
+    }
+    out.form = Form::clock;
+    if (!host_log_ && parse_clock(out)) {
         form_ = Form::clock;
+        return out;
+    }
+    return parse_rest();
+}
+
+/// A line that shows no form: what it is follows from those before it.
+TranscriptEntry TranscriptReader::parse_rest() {
+    TranscriptEntry out = entry(Form::raw);
+    out.bytes = text_;
+    if (host_log_) {
+        out.note = true;  // more of a note that has several lines
         return out;
     }
     if (form_) {
         return bad(*form_ == Form::json ? "no JSON object, in a recording of JSON lines"
                                         : "no time of day, in a recording of 'HH:MM:SS.nnnnnnnnn - line'");
     }
-    out = entry(Form::raw);
-    out.bytes = text_;
+    if (begins_with_time(text_)) {
+        return bad(
+            "it begins with a date or a time, in a form that decode does not know (its --help names "
+            "those that it does)");
+    }
     guess(out);
     return out;
+}
+
+/// The log of a host program says who said each line. Clocks that are set back do not turn time round.
+bool TranscriptReader::parse_host_log(TranscriptEntry& out) {
+    const auto line = read_host_log_line(text_);
+    if (!line) {
+        return false;
+    }
+    host_log_ = true;
+    out.note = line->kind == HostLogLine::Kind::note;
+    out.from = line->kind == HostLogLine::Kind::received ? RecordedLine::From::usb : RecordedLine::From::host;
+    out.bytes = line->text;
+    if (line->stamp) {
+        out.form = Form::clock;
+        out.dated = true;
+        last_ = std::max(last_, line->stamp->day.time_since_epoch() + line->stamp->time_of_day);
+        out.t = last_;
+        out.clock = line->stamp->text;
+    }
+    return true;
 }
 
 TranscriptEntry TranscriptReader::parse_json() {
@@ -197,7 +236,10 @@ TranscriptEntry TranscriptReader::parse_json() {
     try {
         std::optional<RecordedLine> recorded = RecordingReader(line, "json").next();
         if (!recorded) {
-            return bad("nothing");
+            TranscriptEntry note = entry(Form::raw);
+            note.note = true;
+            note.bytes = text_;
+            return note;
         }
         form_ = Form::json;
         TranscriptEntry out = entry(Form::json);
@@ -284,7 +326,8 @@ bool Transcripts::look_ahead(Source& source) {
     return false;
 }
 
-/// Files of the same day, or two days in a row: half a day apart, the earlier time of day is the later day's.
+/// Files without dates are of the same day, or two days in a row: half a day apart, the earlier time of day
+/// is the later day's.
 void Transcripts::align() {
     SimTime latest{0};
     for (const Source& source : sources_) {
@@ -293,7 +336,8 @@ void Transcripts::align() {
     SimTime origin = machine::never;
     for (Source& source : sources_) {
         const SimTime first = *source.ahead.back().t;
-        source.shift = latest - first > one_day / 2 ? one_day : SimTime{0};
+        const bool next_day = !source.ahead.back().dated && latest - first > one_day / 2;
+        source.shift = next_day ? one_day : SimTime{0};
         origin = std::min(origin, first + source.shift);
     }
     for (Source& source : sources_) {

@@ -29,7 +29,7 @@ protocol::Direction likely_direction(std::string_view line,
 struct TranscriptEntry {
     enum class Form : std::uint8_t {
         json,   ///< of a recording: {"t": 16.451778, "from": "screen", "line": "..."}
-        clock,  ///< "15:15:12.123456789 - line": time of day, one direction a file
+        clock,  ///< "15:15:12.123456789 - line", one direction a file; a host program's log with times
         raw,    ///< the line and nothing else
         bad,    ///< cannot be read: see `problem`
     };
@@ -37,9 +37,11 @@ struct TranscriptEntry {
     std::string file;
     std::size_t number = 0;             ///< line of the file, 1 is the first
     std::optional<machine::SimTime> t;  ///< json: as it stands there; clock: since midnight of the first day
+    bool dated = false;                 ///< clock: with its date, and `t` is since 1970
     std::string clock;                  ///< as it stands there, cut to microseconds
     RecordedLine::From from = RecordedLine::From::board;
     bool guessed = false;    ///< `from` was: the form does not say it
+    bool note = false;       ///< no line of a wire: what a host program logged of itself
     std::string bytes;       ///< the line without its end; of `world` the words; of `bad` how it starts
     std::uint64_t peer = 0;  ///< of datagrams, which are kept whole
     std::string problem;     ///< of `bad`: what was found and what was expected
@@ -70,6 +72,8 @@ class TranscriptReader {
     TranscriptEntry parse();
     TranscriptEntry parse_json();
     bool parse_clock(TranscriptEntry& entry);
+    bool parse_host_log(TranscriptEntry& entry);
+    TranscriptEntry parse_rest();
     TranscriptEntry entry(TranscriptEntry::Form form) const;
     TranscriptEntry bad(std::string problem) const;
     void guess(TranscriptEntry& entry);
@@ -82,6 +86,7 @@ class TranscriptReader {
     std::size_t lines_ = 0;   ///< line ends seen
     bool after_cr_ = false;
     std::optional<TranscriptEntry::Form> form_;  ///< seen: json or clock
+    bool host_log_ = false;                      ///< it is the log of a host program
     std::optional<protocol::Direction> told_;    ///< by the last line that told it
     std::int64_t day_ = 0;
     machine::SimTime last_{0};  ///< time of day of the last line

@@ -204,13 +204,27 @@ JudgedLine judge(TranscriptEntry entry, const std::vector<LineJudge>& judges) {
         if (out.piece.empty()) {
             out.decoded = protocol::decode_line(without_nuls(line), out.entry.direction());
         }
-    } else if (out.entry.from != From::world && out.entry.from != From::usb) {
+    } else if (!out.entry.note && out.entry.from != From::world && out.entry.from != From::usb) {
         out.decoded = protocol::decode_line(without_nuls(out.entry.bytes), out.entry.direction());
         for (const LineJudge& each : judges) {
             each(out.entry, *out.decoded, out.marks);
         }
     }
     return out;
+}
+
+bool makes_sense(const JudgedLine& line) {
+    if (line.entry.form == Form::bad || line.entry.note) {
+        return false;
+    }
+    if (line.entry.form != Form::raw || !line.decoded || line.decoded->code != nullptr) {
+        return true;
+    }
+    // An unknown code is still one: "M2999".
+    const std::string& word = line.decoded->code_text;
+    const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+    return word.size() > 1 && word[0] >= 'A' && word[0] <= 'Z' &&
+           std::all_of(word.begin() + 1, word.end(), is_digit);
 }
 
 std::string text_line(const JudgedLine& line) {
@@ -224,7 +238,7 @@ std::string text_line(const JudgedLine& line) {
     if (entry.form != Form::raw) {
         text += fmt::format("{:>15}  ", time_text(entry));
     }
-    text += fmt::format("{:<14}  ", head_of(entry.from));
+    text += fmt::format("{:<14}  ", entry.note ? "log" : head_of(entry.from));
     std::string piece;
     const std::string bytes = is_datagram(entry) ? datagram_line(entry, piece) : entry.bytes;
     const std::string words = piece.empty() ? words_of(line) : piece;
@@ -241,6 +255,11 @@ std::string json_line(const JudgedLine& line) {
                      {"number", entry.number},
                      {"problem", entry.problem},
                      {"text", behaviour::from_wire(entry.bytes)}});
+    }
+    if (entry.note) {
+        return dump({{"file", behaviour::from_wire(entry.file)},
+                     {"number", entry.number},
+                     {"note", behaviour::from_wire(entry.bytes)}});
     }
     Json out = Json::object();
     if (entry.t) {

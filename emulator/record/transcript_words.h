@@ -20,7 +20,7 @@ struct LineMark {
 /// One line of a transcript, taken apart and judged.
 struct JudgedLine {
     TranscriptEntry entry;
-    std::optional<protocol::DecodedLine> decoded;  ///< not of `world` and `bad` entries, nor of pieces
+    std::optional<protocol::DecodedLine> decoded;  ///< not of `world`, `bad` and notes, nor of pieces
     std::string piece;  ///< of a datagram that is a piece of a file: what it brings
     std::vector<LineMark> marks;
 };
@@ -35,6 +35,10 @@ std::vector<LineJudge> line_judges();
 
 JudgedLine judge(TranscriptEntry entry, const std::vector<LineJudge>& judges);
 
+/// Whether its form is known and, of a line that has none, whether it could be one of a wire. Notes do not
+/// count.
+bool makes_sense(const JudgedLine& line);
+
 /// One line of text, UTF-8 without control bytes, for a person; line end included:
 ///     ?   16.451778  screen → board  N-0 M999 X1*52        unknown "M999 X1"
 /// The mark at its start: '!' checksum wrong, '?' code or field unknown, 'x' not readable, '*' anything else.
@@ -43,7 +47,7 @@ std::string text_line(const JudgedLine& line);
 /// The same for a program, one JSON object in ASCII, line end included. Timed lines can be read as a
 /// recording again. Keys: t, from, line or do; code, title, words, fields (key, name, text, value, unit,
 /// meaning), checksum ("right", "wrong", "none", "unfinished"), known, marks. Of what cannot be read: file,
-/// number, problem, text.
+/// number, problem, text; of a note file, number, note.
 std::string json_line(const JudgedLine& line);
 
 }  // namespace fauxboard::record

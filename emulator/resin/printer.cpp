@@ -36,6 +36,7 @@ void Printer::power_on_parts(SimTime now) {
     axis.abort(now);
     axis.power_on();
     print.power_on();
+    commands.stop();
     edited = used = ResinSettings{};
     outcome = Outcome::opened;
     asked.clear();
@@ -49,7 +50,7 @@ void Printer::power_on_parts(SimTime now) {
 }
 
 SimTime Printer::next_of_parts() const {
-    return std::min({axis.next_event(), print.next_event(), stick_due_, reboot_due_});
+    return std::min({axis.next_event(), print.next_event(), commands.next_event(), stick_due_, reboot_due_});
 }
 
 bool Printer::restless_parts() const {
@@ -80,6 +81,7 @@ void Printer::insert_card(int disk) {
 void Printer::remove_card(int disk) {
     if (disk == 0) {
         stick_due_ = never;
+        commands.stop();
     }
     Machine::remove_card(disk);
 }
@@ -129,7 +131,7 @@ void Printer::choose(std::string_view name) {
     if (plain.empty()) {
         return;
     }
-    if (job.active() || refusing) {
+    if (job.active() || refusing || commands.running()) {
         outcome = Outcome::busy;
         events.raise(event("job.refused"));
         return;
@@ -158,9 +160,15 @@ void Printer::choose(std::string_view name) {
 
 bool Printer::start() {
     const bool paused = job.status() == JobStatus::paused;
-    if (!paused && job.active()) {
+    if (!paused && (job.active() || commands.running())) {
         outcome = Outcome::busy;
         return false;
+    }
+    const Volume* const stick = std::as_const(storage).volume(job.volume());
+    if (!paused && stick != nullptr && job.selected() && ResinCommands::fits(job.path())) {
+        outcome = Outcome::opened;
+        commands.begin(*stick, job.path(), now());
+        return true;
     }
     if (!paused && !print.open()) {
         outcome = !job.selected() ? Outcome::no_name : Outcome::unprintable;

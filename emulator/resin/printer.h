@@ -12,6 +12,7 @@
 #include "emulator/resin/kind.h"
 #include "emulator/resin/names.h"
 #include "emulator/resin/resin_axis.h"
+#include "emulator/resin/resin_commands.h"
 #include "emulator/resin/resin_job.h"
 #include "emulator/resin/resin_settings.h"
 
@@ -51,14 +52,15 @@ class Printer final : public machine::Machine {
 
     ResinAxis axis;
     ResinJob print;
+    ResinCommands commands{axis};
     machine::HostSide host{events};
 
     /// Opens a file of the stick as the job's (M23, M6030): by its path, or by the last part of the path of
     /// the file that was opened before. Quotes and the colon of an absolute path are taken off. Raises
     /// file.selected, file.missing or file.unreadable.
     void choose(std::string_view name);
-    /// Starts the file chosen, or goes on with a paused job. False, and `outcome` says why, when neither is
-    /// possible.
+    /// Starts the file chosen, or goes on with a paused job; a .gcode file is carried out. False, and
+    /// `outcome` says why, when neither is possible.
     bool start();
     /// Removes a file of the stick (M30); not the one being printed.
     void remove(std::string_view name);
@@ -82,6 +84,9 @@ class Printer final : public machine::Machine {
     // A stick that was put in can be read only later.
     void insert_card(int disk) override;
     void remove_card(int disk) override;
+    std::optional<std::string> take_request() override {
+        return hung() ? std::nullopt : commands.take(now());
+    }
     /// The place of a print is a layer's end, and nothing between.
     void seek_job(double /*byte*/) override {}
     /// Such a board shows no finished print: it is idle at once.
@@ -105,7 +110,10 @@ class Printer final : public machine::Machine {
     void job_goes_on() override { print.resume(now()); }
     void job_stops() override { print.stop(now()); }
     void job_ends() override { print.stop(now()); }
-    void all_off(bool /*had_job*/) override { print.halt(now()); }
+    void all_off(bool /*had_job*/) override {
+        print.halt(now());
+        commands.stop();
+    }
 
     bool on_by(double rule) const;
     std::string_view take_name(std::string_view name);

@@ -56,6 +56,14 @@ bool ResinJob::open() {
     return true;
 }
 
+std::optional<ResinJob::Place> ResinJob::place() const {
+    const Volume* volume = storage_.volume(job_.volume());
+    if (!file_ || volume == nullptr || !job_.active()) {
+        return std::nullopt;
+    }
+    return Place{*file_, *volume, job_.path(), index_};
+}
+
 void ResinJob::start(SimTime now) {
     axis_.abort(now);
     pause_due_ = never;

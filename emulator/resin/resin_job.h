@@ -64,6 +64,14 @@ class ResinJob {
     int light() const;
     /// Of the exposure under way or interrupted, s.
     double exposure_left_s(SimTime now) const;
+    /// The file that is being printed, and the layer under way, from 0; nothing while no job is.
+    struct Place {
+        const sliced::SlicedFile& file;
+        const machine::Volume& disk;
+        const std::string& path;
+        std::uint32_t layer;
+    };
+    std::optional<Place> place() const;
     /// Height of the layer under way, mm.
     double layer_z_mm() const { return layer_.z_mm; }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 
+#include "emulator/behaviour/fields.h"
 #include "emulator/behaviour/wire_text.h"
 #include "emulator/screen/screen_compiler.h"
 
@@ -18,8 +19,9 @@ namespace {
 
 constexpr int max_read_depth = 8;
 constexpr std::array<std::string_view, 3> kind_names{"number", "text", "list"};
-constexpr std::array<std::string_view, 9> as_names{"u8",   "u16",        "i32",        "real",    "text",
-                                                   "mark", "list_start", "list_entry", "list_end"};
+constexpr std::array<std::string_view, 4> source_names{"own", "line_bytes", "longest_word", "page"};
+constexpr std::array<std::string_view, 10> as_names{
+    "u8", "u16", "i32", "real", "text", "mark", "list_start", "list_entry", "list_end", "list_append"};
 constexpr std::array<std::string_view, 2> bounds_names{"kept", "read"};
 constexpr std::array<std::string_view, 2> from_names{"last", "start"};
 constexpr std::array<std::string_view, 4> bad_names{"drop_rest", "crash", "zero", "cut"};
@@ -65,6 +67,25 @@ ValueInfo Compiler::value_info(const std::string& name, const Json& node, const 
     info.name = name;
     ObjectReader reader(node, pointer, findings);
     pick(reader, "kind", kind_names, info.kind);
+    std::string field;
+    if (reader.text("field", field); reader.has("field")) {
+        info.field = behaviour::find_field(field);
+        if (info.field == nullptr) {
+            findings.add(reader.pointer("field"), fmt::format("there is no field \"{}\"", field),
+                         std::string(behaviour::nearest_field(field)));
+        } else if (!profile.display) {
+            findings.add(reader.pointer("field"),
+                         "a screen that hangs on a line sees no field of the machine");
+        } else if (info.field->type == behaviour::FieldType::text) {
+            info.kind = ValueKind::text;
+        }
+    }
+    pick(reader, "is", source_names, info.is);
+    if (const bool text = info.kind == ValueKind::text;
+        info.is != ValueSource::own &&
+        (info.kind == ValueKind::list || text != (info.is == ValueSource::page))) {
+        findings.add(reader.pointer("is"), "a page is a text, a size of the line a number");
+    }
     reader.text("unit", info.unit);
     reader.text("help", info.help);
     if (info.kind == ValueKind::number) {
@@ -191,11 +212,31 @@ std::vector<Read> Compiler::reads(ObjectReader& reader, std::string_view key, in
     return out;
 }
 
+/// "verdict": a word of verdict_words(), and "why".
+void Compiler::case_verdict(ObjectReader& reader, FrameCase& out) {
+    std::vector<std::string_view> words;
+    for (std::size_t i = 0; i < verdict_count; ++i) {
+        words.push_back(verdict_words(static_cast<Verdict>(i)));
+    }
+    pick(reader, "verdict", words, out.verdict);
+    reader.text("why", out.why);
+    if ((out.verdict == Verdict::ok) != out.why.empty()) {
+        findings.add(reader.pointer("why"), "a verdict and why it is so stand together");
+    }
+}
+
 FrameCase Compiler::frame_case(ObjectReader& reader) {
     FrameCase out;
     out.has = texts(reader, "has");
+    out.lacks = texts(reader, "lacks");
+    out.when = conditions(reader, "when", {});
     reader.text("ignored", out.ignored);
+    case_verdict(reader, out);
     out.read = reads(reader, "read", 0);
+    out.assume = assigns(reader, "assume", {});
+    reader.boolean("acknowledges", out.acknowledges);
+    out.answers = texts(reader, "answers");
+    reader.boolean("forgets", out.forgets);
     out.opens = targets(reader, "opens", {});
     out.answer = sends(reader, "answer", {});
     reader.boolean("restarts", out.restarts);
@@ -207,6 +248,8 @@ FrameRule Compiler::frame(const std::string& name, const Json& node, const std::
     rule.name = name;
     ObjectReader reader(node, pointer, findings);
     reader.text("title", rule.title);
+    reader.boolean("anywhere", rule.anywhere);
+    reader.boolean("goes_on", rule.goes_on);
     if (const Json* cases = reader.get("cases")) {
         for_each_item(*cases, reader.pointer("cases"), [&](const Json& item, const std::string& where) {
             ObjectReader one(item, where, findings);

@@ -36,7 +36,8 @@ void Compiler::button(std::size_t page, const std::string& name, const Json& nod
             findings.add(reader.pointer("rows"), "\"" + list + "\" is no list");
         }
     }
-    const Allowed allowed{out.rows.has_value(), out.input.has_value()};
+    const Allowed allowed{out.rows.has_value(), out.input.has_value(),
+                          out.rows ? &profile.values.at(*out.rows).columns : nullptr};
     if (const Json* label = reader.get("label"); label != nullptr && label->is_string()) {
         out.label = compile(label->get_ref<const std::string&>(), reader.pointer("label"), allowed);
     } else {
@@ -45,10 +46,14 @@ void Compiler::button(std::size_t page, const std::string& name, const Json& nod
         out.label = compile(name, pointer, {});
     }
     out.when = conditions(reader, "when", allowed);
-    out.assume = assigns(reader, "assume", allowed);
-    out.send = sends(reader, "send", allowed);
-    out.leads_to = targets(reader, "leads_to", allowed);
-    out.expect = expectations(reader, "expect", allowed);
+    if (profile.display) {
+        control(out, reader, pointer, allowed);
+    } else {
+        out.assume = assigns(reader, "assume", allowed);
+        out.send = sends(reader, "send", allowed);
+        out.leads_to = targets(reader, "leads_to", allowed);
+        out.expect = expectations(reader, "expect", allowed);
+    }
     out.prepare = preparations(reader, "prepare", {});
     time(reader, "settle_ms", out.settle, 0, 600'000);
     reader.finish();
@@ -58,10 +63,7 @@ void Compiler::button(std::size_t page, const std::string& name, const Json& nod
     }
 }
 
-void Compiler::page(std::size_t id, const Json& node, const std::string& pointer) {
-    ObjectReader reader(node, pointer, findings);
-    Page& out = profile.pages[id];
-    reader.text("title", out.title);
+void Compiler::line_page(Page& out, ObjectReader& reader) {
     if (const Json* shows = reader.get("shows")) {
         for_each_item(*shows, reader.pointer("shows"), [&](const Json& item, const std::string& where) {
             if (item.is_string()) {
@@ -81,6 +83,17 @@ void Compiler::page(std::size_t id, const Json& node, const std::string& pointer
     }
     reader.boolean("stays", out.stays);
     out.opened_by = texts(reader, "opened_by");
+}
+
+void Compiler::page(std::size_t id, const Json& node, const std::string& pointer) {
+    ObjectReader reader(node, pointer, findings);
+    Page& out = profile.pages[id];
+    reader.text("title", out.title);
+    if (profile.display) {
+        page_face(out, reader);
+    } else {
+        line_page(out, reader);
+    }
     texts(reader, "without");  // read with the buttons of every page
     const Json* buttons = reader.get("buttons");
     if (buttons != nullptr) {
@@ -100,7 +113,9 @@ void Compiler::pages(const Json& node) {
         return;
     }
     for (std::size_t id = 0; id < profile.pages.size(); ++id) {
-        page(id, node[profile.pages[id].path], reader.pointer(profile.pages[id].path));
+        if (profile.pages[id].face.kind != PageFace::Kind::box) {
+            page(id, node[profile.pages[id].path], reader.pointer(profile.pages[id].path));
+        }
     }
 }
 

@@ -6,7 +6,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "emulator/behaviour/nearest.h"
 #include "emulator/behaviour/operand.h"
@@ -24,12 +23,20 @@ bool name_char(char c) {
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '.';
 }
 
+/// Of a month, 1 to 12, of a year in which every fourth is a leap year.
+double days_of(double month, double year) {
+    if (month == 2) {
+        return std::fmod(year, 4) == 0 ? 29 : 28;
+    }
+    return month == 4 || month == 6 || month == 9 || month == 11 ? 30 : 31;
+}
+
 }  // namespace
 
 /// Recursive descent; its depth and length are bounded.
 class ExpressionParser {
   public:
-    ExpressionParser(std::string_view source, const ValueTable& table, Allowed allowed)
+    ExpressionParser(std::string_view source, ValueTable& table, Allowed allowed)
         : source_(source), rest_(source), table_(table), allowed_(allowed) {}
 
     std::vector<Expression::Step> parse() {
@@ -143,16 +150,21 @@ class ExpressionParser {
             Op op;
             int arguments;
         };
-        static constexpr std::array<Function, 5> functions{{{"min", Op::minimum, 2},
+        static constexpr std::array<Function, 7> functions{{{"min", Op::minimum, 2},
                                                             {"max", Op::maximum, 2},
                                                             {"mod", Op::modulo, 2},
+                                                            {"days", Op::days, 2},
                                                             {"round", Op::round, 1},
-                                                            {"floor", Op::floor, 1}}};
+                                                            {"floor", Op::floor, 1},
+                                                            {"float", Op::narrow, 1}}};
         const auto* hit = std::find_if(functions.begin(), functions.end(),
                                        [&](const Function& f) { return f.name == name; });
         if (hit == functions.end()) {
-            constexpr std::array<std::string_view, 5> names{"min", "max", "mod", "round", "floor"};
-            fail(fmt::format("there is no function \"{}\"; known: min, max, mod, round, floor", name),
+            std::vector<std::string_view> names;
+            for (const Function& function : functions) {
+                names.push_back(function.name);
+            }
+            fail(fmt::format("there is no function \"{}\"; known: {}", name, fmt::join(names, ", ")),
                  std::string(behaviour::nearest(name, names)));
         }
         for (int i = 0; i < hit->arguments; ++i) {
@@ -170,7 +182,7 @@ class ExpressionParser {
             push(Op::row);
         } else if (name == "input" && allowed_.input) {
             push(Op::input);
-        } else if (const auto id = table_.find(name)) {
+        } else if (const auto id = table_.want(name)) {
             if (table_.at(*id).kind == ValueKind::text) {
                 fail(fmt::format("\"{}\" is a text; expected a number", name));
             }
@@ -185,12 +197,12 @@ class ExpressionParser {
 
     std::string_view source_;
     std::string_view rest_;
-    const ValueTable& table_;
+    ValueTable& table_;
     Allowed allowed_;
     std::vector<Expression::Step> steps_;
 };
 
-Expression::Expression(std::string_view source, const ValueTable& table, Allowed allowed)
+Expression::Expression(std::string_view source, ValueTable& table, Allowed allowed)
     : steps_(ExpressionParser(source, table, allowed).parse()) {}
 
 Expression Expression::constant(double value) {
@@ -199,12 +211,20 @@ Expression Expression::constant(double value) {
     return out;
 }
 
+std::vector<std::size_t> Expression::values() const {
+    std::vector<std::size_t> out;
+    for (const Step& step : steps_) {
+        if (step.op == Op::value || step.op == Op::length) out.push_back(step.value);
+    }
+    return out;
+}
+
 double Expression::evaluate(const Scope& scope) const {
     std::array<double, max_steps + 2> stack{};  // one slot of slack below the bottom
     std::size_t top = 1;
     for (const Step& step : steps_) {
         double& a = stack[top - 1];  // the operand of one, the left of two after the pop below
-        const bool two = step.op >= Op::add && step.op <= Op::modulo;
+        const bool two = step.op >= Op::add && step.op <= Op::days;
         double& left = two ? stack[top - 2] : a;
         const double b = a;
         switch (step.op) {
@@ -231,6 +251,12 @@ double Expression::evaluate(const Scope& scope) const {
                 break;
             case Op::floor:
                 left = std::floor(b);
+                break;
+            case Op::narrow:
+                left = static_cast<double>(static_cast<float>(b));
+                break;
+            case Op::days:
+                left = days_of(left, b);
                 break;
             case Op::add:
                 left += b;

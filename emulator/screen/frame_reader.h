@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string_view>
 #include <vector>
 
@@ -10,12 +11,18 @@ namespace fauxboard::screen {
 
 /// A line as the screen took it.
 struct Taken {
-    Judgement judgement;             ///< number and time are left to the caller
-    const FrameCase* how = nullptr;  ///< the rule that took it; null when it was ignored
+    Judgement judgement;                ///< number and time are left to the caller
+    std::vector<const FrameCase*> how;  ///< the rules that took it; none when it was ignored
+
+    bool restarts() const {
+        return judgement.verdict == Verdict::would_crash ||
+               std::any_of(how.begin(), how.end(), [](const FrameCase* one) { return one->restarts; });
+    }
 };
 
 /// Reads one line (line end left off, no NUL in it) into `values`, with the search order, number readers and
-/// limits of the profile, and says what became of it. Any bytes are fine.
+/// limits of the profile, and says what became of it. Any bytes are fine. What a line by itself makes the
+/// screen assume goes into `values`, too.
 Taken take_line(const ScreenProfile& profile, std::string_view line, std::vector<Shown>& values);
 
 /// The same for a line as it was received: a NUL ends its text, and one that fills the receiving ring is

@@ -8,7 +8,8 @@ namespace fauxboard::screen {
 
 std::string_view verdict_words(Verdict verdict) {
     static constexpr std::array<std::string_view, verdict_count> words{
-        "ok", "ignored", "part missed", "cut", "rest dropped", "misread", "restarts", "would crash"};
+        "ok",       "ignored",   "part missed", "cut",    "rest dropped", "misread",
+        "restarts", "timed out", "runs ahead",  "stalls", "jams",         "would crash"};
     return words[static_cast<std::size_t>(verdict)];
 }
 

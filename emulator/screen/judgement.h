@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -20,12 +21,17 @@ enum class Verdict : std::uint8_t {
     rest_dropped,  ///< a value out of bounds: it and what follows is not taken
     misread,       ///< taken, but as something else than was meant
     restarts,      ///< the screen starts anew, for it is told to
-    would_crash,   ///< the screen's processor faults and the screen starts anew
+    timed_out,     ///< no line: what the screen waits for does not come, and it gives up waiting
+    runs_ahead,  ///< an acknowledgement too many: the screen no longer waits for the answer that it thinks of
+    stalls,      ///< the screen waits for something else and does not react to touches until it comes
+    jams,        ///< the screen never reads again
+    would_crash,  ///< the screen's processor faults and the screen starts anew
 };
 
-inline constexpr std::size_t verdict_count = 8;
+inline constexpr std::size_t verdict_count = 12;
 
-/// "ok", "ignored", "part missed", "cut", "rest dropped", "misread", "restarts", "would crash".
+/// "ok", "ignored", "part missed", "cut", "rest dropped", "misread", "restarts", "timed out", "runs ahead",
+/// "stalls", "jams", "would crash".
 std::string_view verdict_words(Verdict verdict);
 
 /// A value that a line set, as it was then.

@@ -14,19 +14,20 @@ using machine::SimTime;
 
 /// A line as it came out of the ring. The view lives until the callback returns.
 struct IntakeLine {
-    std::string_view text;  ///< may hold a NUL
-    bool lost = false;      ///< it filled the room for a line before its end came: nothing is made of it
+    std::string_view text;   ///< may hold a NUL
+    bool lost = false;       ///< it filled the room for a line before its end came: nothing is made of it
+    std::uint64_t came = 0;  ///< bytes that had come when it was whole; see LineIntake::came()
 };
 
 /// The receiving end of a screen's UART: bytes arrive one after the other, as fast as the line carries them,
 /// in a ring that is looked into on the first tick after the line fell silent or the ring was full. What
-/// comes while it is full is lost. CR or LF ends a line, empty ones are skipped, half a line waits for ever.
-/// Memory is bounded.
+/// comes while it is full is lost. CR (unless told otherwise) or LF ends a line, empty ones are skipped, half
+/// a line waits for ever. Memory is bounded.
 class LineIntake {
   public:
     /// Bytes the ring holds, what a byte takes on the line (0: nothing), and how often it is looked into.
-    LineIntake(std::size_t room, SimTime byte_time, SimTime tick)
-        : room_(room), byte_time_(byte_time), tick_(tick) {}
+    LineIntake(std::size_t room, SimTime byte_time, SimTime tick, bool lf_only)
+        : room_(room), byte_time_(byte_time), tick_(tick), lf_only_(lf_only) {}
 
     /// Everything is gone; ticks are counted from now.
     void start(SimTime now) {
@@ -61,6 +62,8 @@ class LineIntake {
 
     /// So many bytes may come now and be sure not to be lost.
     std::size_t room() const { return room_ - std::min(room_, ring_.size() + wire_.size()); }
+    /// Bytes that have come so far, without those that were lost.
+    std::uint64_t came() const { return came_ + (byte_time_ == SimTime{0} ? wire_.size() : 0); }
     /// When the last byte of those that were taken out arrived.
     SimTime arrived() const { return arrived_; }
 
@@ -75,8 +78,10 @@ class LineIntake {
         lost_ = 0;
         asked_ = machine::never;
         const std::uint64_t life = life_;
+        std::uint64_t at = came_ - bytes.size();
         for (const char c : bytes) {
-            const bool end = c == '\r' || c == '\n';
+            ++at;
+            const bool end = c == '\n' || (c == '\r' && !lf_only_);
             if (!end) {
                 partial_ += c;
             }
@@ -84,7 +89,7 @@ class LineIntake {
             if (full || (end && !partial_.empty())) {
                 std::string text;
                 text.swap(partial_);
-                on_line(IntakeLine{text, full});
+                on_line(IntakeLine{text, full, at});
                 if (life != life_) return lost;
             }
         }
@@ -103,6 +108,7 @@ class LineIntake {
                                              std::max(SimTime::rep{0}, (now - wire_start_) / byte_time_)));
         const std::size_t fits = std::min(come, room_ - ring_.size());
         ring_.append(wire_, 0, fits);
+        came_ += fits;
         if (come != 0 && ring_.size() == room_) {
             ask(wire_start_ + static_cast<SimTime::rep>(fits) * byte_time_);
         }
@@ -127,6 +133,7 @@ class LineIntake {
     std::size_t room_;
     SimTime byte_time_;
     SimTime tick_;
+    bool lf_only_;
     SimTime origin_{0};
     std::string wire_;       ///< sent, and not here yet
     SimTime wire_start_{0};  ///< when its first byte began, or the last one ended
@@ -136,6 +143,7 @@ class LineIntake {
     SimTime arrived_{0};
     std::size_t lost_ = 0;
     std::uint64_t life_ = 0;
+    std::uint64_t came_ = 0;
 };
 
 }  // namespace fauxboard::screen

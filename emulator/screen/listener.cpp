@@ -17,6 +17,9 @@ bool by_itself(const ScreenProfile& profile, const Judgement& judgement, std::st
     });
 }
 
+/// A heat-up is among the longest that a board may take before it acknowledges, and busy meanwhile.
+constexpr SimTime longest_command{std::chrono::minutes(30)};
+
 std::string seconds(SimTime time) {
     return short_text(machine::to_seconds(time)) + " s";
 }
@@ -46,7 +49,8 @@ void Listener::expect(const Screen& screen, const Button& button, std::size_t ro
                       std::optional<double> input) {
     wanted_.clear();
     came_.clear();
-    disturbed_ = false;
+    disturbed_ = timed_out_ = false;
+    timeouts_ = screen.counters().timeouts;
     silence_ = screen.profile().silence;
     const Standpoint at = screen.standpoint();
     const std::size_t there = at.visible(button, row).value_or(1);
@@ -57,12 +61,20 @@ void Listener::expect(const Screen& screen, const Button& button, std::size_t ro
                 condition = condition.frozen(scope);
             }
             std::string words = describe(screen, one);
-            wanted_.push_back({std::move(one), std::move(words), false});
+            wanted_.push_back({std::move(one), std::move(words), false, 0});
         }
     };
     add(button.expect);
     if (const auto to = at.destination(button.leads_to, scope)) {
         add(screen.profile().pages[*to].expect);
+    }
+}
+
+void Listener::expect_acknowledged(const Screen& screen) {
+    if (screen.profile().talk.queued && screen.talk().over() < screen.talk().taken()) {
+        Expectation what;
+        what.within = longest_command;
+        wanted_.push_back({std::move(what), "its acknowledgement", false, screen.talk().taken()});
     }
 }
 
@@ -89,13 +101,21 @@ bool Listener::matches(const Screen& screen, const Expectation& what, const Judg
     return all_hold(what.where, Scope{then, 0, {}, 0});
 }
 
+void Listener::look(const Screen& screen) {
+    timed_out_ = timed_out_ || screen.counters().timeouts != timeouts_;
+    for (Wanted& one : wanted_) {
+        one.came = one.came || (one.over != 0 && screen.talk().over() >= one.over);
+    }
+}
+
 void Listener::take(const Screen& screen, const Judgement& judgement) {
     const std::string body(protocol::unframe(judgement.line, protocol::ChecksumPolicy::ignored).body);
     const auto keep = [&] {
         if (came_.size() < most_lines) came_.push_back(body);
     };
+    look(screen);
     for (Wanted& one : wanted_) {
-        if (!one.came && matches(screen, one.what, judgement, body)) {
+        if (!one.came && one.over == 0 && matches(screen, one.what, judgement, body)) {
             one.came = true;
             keep();
             return;
@@ -114,6 +134,9 @@ void Listener::take(const Screen& screen, const Judgement& judgement) {
 Listener::State Listener::state(SimTime now) const {
     if (wanted_.empty()) {
         return disturbed_ ? State::failed : now >= start_ + silence_ ? State::met : State::waiting;
+    }
+    if (timed_out_) {
+        return State::failed;
     }
     bool all = true;
     for (const Wanted& one : wanted_) {

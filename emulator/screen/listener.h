@@ -15,11 +15,16 @@ class Listener {
     void expect(const Screen& screen, const Button& button, std::size_t row, std::optional<double> input);
     /// Nothing was sent, so nothing must come.
     void expect_silence() { wanted_.clear(); }
+    /// The commands that the screen has taken up to now must be acknowledged, of a screen that waits for
+    /// that.
+    void expect_acknowledged(const Screen& screen);
     /// The clock of all limits starts.
     void start(SimTime now) { start_ = now; }
     /// What must come may be so much later than its limit.
     void set_slack(SimTime slack) { slack_ = slack; }
 
+    /// Time has passed without a line.
+    void look(const Screen& screen);
     void take(const Screen& screen, const Judgement& judgement);
 
     enum class State : std::uint8_t { waiting, met, failed };
@@ -39,6 +44,7 @@ class Listener {
         Expectation what;
         std::string words;
         bool came = false;
+        std::uint64_t over = 0;  ///< not 0: not a line, but so many commands of the screen's are over
     };
 
     static std::string describe(const Screen& screen, const Expectation& what);
@@ -47,7 +53,9 @@ class Listener {
 
     std::vector<Wanted> wanted_;
     std::vector<std::string> came_;
-    bool disturbed_ = false;  ///< something came that was neither asked for nor known to come by itself
+    bool timed_out_ = false;      ///< the screen gave up waiting for an acknowledgement
+    std::uint64_t timeouts_ = 0;  ///< of the screen, before the touch
+    bool disturbed_ = false;      ///< something came that was neither asked for nor known to come by itself
     SimTime silence_{0};
     SimTime start_{0};
     SimTime slack_{0};

@@ -7,6 +7,7 @@
 namespace fauxboard::screen {
 namespace {
 
+constexpr double most_rows = 1e6;
 constexpr unsigned send_cost = 20;  ///< a way that sends nothing is taken, even if it is longer
 
 /// One edge of the map of pages.
@@ -95,14 +96,31 @@ std::optional<std::vector<Step>> walk(const Standpoint& from, IsGoal&& is_goal, 
 Scope Standpoint::scope(const Button& button, std::size_t row, double input) const {
     Scope out{values, row, {}, input};
     if (button.rows && row != 0 && row <= values[*button.rows].list.size()) {
-        out.row_text = values[*button.rows].list[row - 1];
+        const Shown& list = values[*button.rows];
+        out.row_text = list.list[row - 1];
+        if (row <= list.cells.size()) {
+            out.row_cells = list.cells[row - 1];
+        }
     }
     return out;
+}
+
+std::size_t Standpoint::first_row(const Button& button) const {
+    const double before_it = button.control ? button.control->first.evaluate({values, 0, {}, 0}) : 0;
+    return before_it > 0 && before_it < most_rows ? static_cast<std::size_t>(before_it) + 1 : 1;
 }
 
 std::optional<std::size_t> Standpoint::visible(const Button& button, std::size_t row) const {
     if (!button.rows) {
         return all_hold(button.when, scope(button, 1)) ? std::optional<std::size_t>(1) : std::nullopt;
+    }
+    if (button.control && button.control->slots != 0) {
+        const std::size_t first = first_row(button);
+        const std::size_t wanted = row == 0 ? first : row;
+        return wanted >= first && wanted < first + button.control->slots &&
+                       all_hold(button.when, scope(button, wanted))
+                   ? std::optional(wanted)
+                   : std::nullopt;
     }
     const std::size_t last = values[*button.rows].list.size();
     for (std::size_t i = row == 0 ? 1 : row; i <= (row == 0 ? last : std::min(row, last)); ++i) {
@@ -117,9 +135,9 @@ std::optional<std::size_t> Standpoint::destination(const std::vector<Target>& ta
                                                    const Scope& scope) const {
     for (const Target& target : targets) {
         if (all_hold(target.when, scope)) {
-            return target.where == Target::Where::back     ? profile.pages[page].parent
-                   : target.where == Target::Where::before ? before
-                                                           : target.page;
+            return target.where == Target::Where::back   ? profile.pages[page].parent
+                   : target.where == Target::Where::page ? target.page
+                                                         : before;
         }
     }
     return std::nullopt;

@@ -48,6 +48,8 @@ struct Standpoint {
 
     /// The scope of a button's expressions.
     Scope scope(const Button& button, std::size_t row, double input = 0) const;
+    /// Of a control with rows: the one in its first place.
+    std::size_t first_row(const Button& button) const;
     /// The row to press: `row` itself if it is there, the first that is there for 0; nothing when none is. 1
     /// for a button without rows that is there.
     std::optional<std::size_t> visible(const Button& button, std::size_t row = 0) const;

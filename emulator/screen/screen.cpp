@@ -18,7 +18,9 @@ constexpr std::size_t max_output = 64UL * 1024;
 
 Screen::Screen(std::shared_ptr<const ScreenProfile> profile)
     : profile_(std::move(profile)),
-      intake_(profile_->line.buffer_bytes, profile_->line.byte_time, profile_->line.tick),
+      intake_(profile_->line.buffer_bytes, profile_->line.byte_time, profile_->line.tick,
+              profile_->line.lf_only),
+      talk_(profile_->talk),
       values_(profile_->values.power_on()),
       page_(profile_->main_page),
       before_(profile_->main_page) {}
@@ -31,8 +33,12 @@ void Screen::power_on(SimTime now) {
 void Screen::restart(SimTime now) {
     intake_.start(now);
     answers_.clear();
+    talk_.power_on(now);
+    polls_due_.assign(profile_->talk.polls.size(), now + profile_->line.deaf);
+    jammed_ = false;
     values_ = profile_->values.power_on();
     page_ = before_ = profile_->main_page;
+    tell_page();
     on_ = hello_due_ = true;
     time_ = power_on_ = touched_ = now;
 }
@@ -43,7 +49,9 @@ void Screen::receive(SimTime now, std::string_view bytes) {
         counters_.bytes_unheard += bytes.size();
         return;
     }
-    intake_.receive(std::max(now, time_), bytes);
+    if (!jammed_) {
+        intake_.receive(std::max(now, time_), bytes);
+    }
 }
 
 SimTime Screen::advance(SimTime now) {
@@ -75,7 +83,7 @@ SimTime Screen::next_due() const {
     if (hello_due_) {
         return power_on_ + profile_->line.deaf;
     }
-    const SimTime due = std::min(idle_due(), intake_.next_look());
+    const SimTime due = std::min({idle_due(), intake_.next_look(), talk_due()});
     return answers_.empty() ? due : std::min(due, answers_.front().at);
 }
 
@@ -88,6 +96,8 @@ void Screen::step(SimTime due) {
         const std::string body = std::move(answers_.front().body);
         answers_.pop_front();
         send(body);
+    } else if (talk_due() <= due) {
+        talk_on();
     } else if (intake_.next_look() <= due && idle_due() > due) {
         drain();
     } else {
@@ -116,33 +126,54 @@ void Screen::take(const IntakeLine& line) {
     Judgement& judgement = taken.judgement;
     judgement.at = time_;
     judgement.number = ++counters_.lines_received;
+    talk_.heard(time_);
+    const std::size_t jams_at = profile_->line.jams_at;
+    if (jams_at != 0 && line.text.size() >= jams_at) {
+        jammed_ = true;
+        taken.how.clear();
+        judgement.verdict = Verdict::jams;
+        judgement.why = fmt::format("a line of {} bytes or more: the screen never reads again", jams_at);
+    }
+    if (std::any_of(taken.how.begin(), taken.how.end(),
+                    [](const FrameCase* one) { return one->acknowledges; })) {
+        acknowledge(judgement, line.came);
+    }
     ++counters_.verdicts[static_cast<std::size_t>(judgement.verdict)];
     record(judgement);
     act_on(taken);
 }
 
 void Screen::act_on(const Taken& taken) {
-    if (taken.judgement.verdict == Verdict::would_crash) {
-        ++counters_.crashes;
+    if (taken.restarts()) {
+        ++(taken.judgement.verdict == Verdict::would_crash ? counters_.crashes : counters_.restarts);
         restart(time_);
         return;
     }
-    if (taken.how == nullptr) {
-        return;
+    for (const FrameCase* how : taken.how) {
+        act_on(*how);
     }
-    if (taken.how->restarts) {
-        ++counters_.restarts;
-        restart(time_);
-        return;
+}
+
+void Screen::act_on(const FrameCase& how) {
+    if (how.forgets) {
+        talk_.forget(time_);
+    }
+    for (const std::string& command : how.answers) {
+        talk_.answered(command);
     }
     const Scope scope{values_, 0, {}, 0};
-    for (const Send& answer : taken.how->answer) {
-        if (all_hold(answer.when, scope) && answers_.size() < max_answers) {
+    for (const Send& answer : how.answer) {
+        if (!all_hold(answer.when, scope)) {
+            continue;
+        }
+        if (profile_->talk.queued) {
+            send(answer.line.render(scope));
+        } else if (answers_.size() < max_answers) {
             answers_.push_back({std::max(time_, intake_.arrived() + profile_->line.answer_after),
                                 answer.line.render(scope)});
         }
     }
-    if (const auto to = standpoint().destination(taken.how->opens, scope)) {
+    if (const auto to = standpoint().destination(how.opens, scope)) {
         touched_ = time_;
         open(*to);
     }
@@ -171,6 +202,7 @@ void Screen::open(std::size_t page_id) {
         before_ = page_;
     }
     page_ = page_id;
+    tell_page();
     const Scope scope{values_, 0, {}, 0};
     std::vector<const Send*> sends;
     for (const Send& one : page().send) {
@@ -178,20 +210,6 @@ void Screen::open(std::size_t page_id) {
     }
     assume(page().assume, scope);
     send_all(sends, scope);
-}
-
-void Screen::assume(const std::vector<Assign>& assigns, const Scope& scope) {
-    // All from the values as they were, so that the order does not matter.
-    std::vector<Shown> fresh;
-    for (const Assign& assign : assigns) {
-        const bool text = profile_->values.at(assign.value).kind == ValueKind::text;
-        fresh.push_back(
-            {text ? 0 : assign.expression.evaluate(scope), text ? assign.text.render(scope) : "", {}, {}});
-    }
-    for (std::size_t i = 0; i < assigns.size(); ++i) {
-        values_[assigns[i].value].number = fresh[i].number;
-        values_[assigns[i].value].text = std::move(fresh[i].text);
-    }
 }
 
 void Screen::send_all(const std::vector<const Send*>& sends, const Scope& scope) {
@@ -204,13 +222,26 @@ void Screen::send(std::string body) {
     // A name from the board may hold anything; a line of ours holds no control character.
     std::replace_if(
         body.begin(), body.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, '?');
-    ++counters_.lines_sent;
-    put(protocol::frame(
-        body, profile_->line.framed_out ? protocol::FrameStyle::framed : protocol::FrameStyle::bare));
+    if (!profile_->talk.queued) {
+        write(body);
+    } else if (!talk_.queue(body)) {
+        return;  // it has no room for more, and says nothing of it
+    }
     sent_.push_back(std::move(body));
     if (sent_.size() > max_judgements) {
         sent_.clear();
     }
+    talk_on();
+}
+
+void Screen::write(std::string_view body) {
+    ++counters_.lines_sent;
+    if (profile_->line.lf_only) {
+        put(std::string(body) + '\n');
+        return;
+    }
+    put(protocol::frame(
+        body, profile_->line.framed_out ? protocol::FrameStyle::framed : protocol::FrameStyle::bare));
 }
 
 void Screen::put(std::string_view bytes) {
@@ -229,6 +260,8 @@ PressResult Screen::touch(std::size_t id, std::size_t row, std::optional<double>
     const Standpoint at = standpoint();
     if (!ready()) {
         result.sentence = "the screen is not on yet";
+    } else if (std::string dead = talk_.dead(); !dead.empty()) {
+        result.sentence = std::move(dead);
     } else if (std::find(here.begin(), here.end(), id) == here.end()) {
         result.sentence = fmt::format("\"{}\" is not on the page that is open, {}", button.path, page().path);
     } else {
@@ -262,6 +295,16 @@ PressResult Screen::touch(std::size_t id, std::size_t row, std::optional<double>
     result.sent = std::move(sent_);
     sent_.clear();
     return result;
+}
+
+PressResult Screen::press(std::string_view path, std::size_t row, std::optional<double> input, SimTime now) {
+    catch_up(now);
+    const Resolved meant = resolve(*profile_, values_, page_, path);
+    const auto& here = page().buttons;
+    if (!meant.button || std::find(here.begin(), here.end(), *meant.button) == here.end()) {
+        return press(path, now);
+    }
+    return touch(*meant.button, row != 0 ? row : meant.row, input ? input : meant.input, now);
 }
 
 PressResult Screen::press(std::string_view path, SimTime now) {

@@ -14,6 +14,7 @@
 #include "emulator/screen/line_intake.h"
 #include "emulator/screen/navigation.h"
 #include "emulator/screen/screen_profile.h"
+#include "emulator/screen/talk.h"
 
 namespace fauxboard::screen {
 
@@ -35,6 +36,7 @@ struct ScreenCounters {
     std::uint64_t output_lost = 0;    ///< bytes nobody took in time
     std::uint64_t crashes = 0;
     std::uint64_t restarts = 0;  ///< because the board asked for it
+    std::uint64_t timeouts = 0;  ///< commands whose acknowledgement it did not wait for any longer
 };
 
 /// One virtual touch screen: bytes in, bytes out, time in. No clock, no I/O, no threads; many screens may
@@ -67,6 +69,8 @@ class Screen {
     /// Touches the button that `path` means (see resolve()), from wherever the screen stands: the pages on
     /// the way are opened by touch as well, with all they send.
     PressResult press(std::string_view path, SimTime now);
+    /// The same with the row and the number typed in beside the path, which count on the open page.
+    PressResult press(std::string_view path, std::size_t row, std::optional<double> input, SimTime now);
     /// Touches one button of the page that is open. `row` as in Step, `input` the number typed in.
     PressResult touch(std::size_t button, std::size_t row, std::optional<double> input, SimTime now);
 
@@ -96,6 +100,8 @@ class Screen {
     /// Every kind of line that was not ok, in the order in which they came; at most 256 kinds.
     const std::vector<Finding>& findings() const { return findings_; }
     const ScreenCounters& counters() const { return counters_; }
+    /// The commands under way and waiting, of a screen that sends one at a time.
+    const Talk& talk() const { return talk_; }
 
   private:
     void restart(SimTime now);
@@ -106,11 +112,21 @@ class Screen {
     void drain();
     void take(const IntakeLine& line);
     void act_on(const Taken& taken);
+    void act_on(const FrameCase& how);
     void record(Judgement judgement);
     void open(std::size_t page);
-    void assume(const std::vector<Assign>& assigns, const Scope& scope);
+    void assume(const std::vector<Assign>& assigns, const Scope& scope) {
+        assign(assigns, profile_->values, scope, values_);
+    }
+    void tell_page();
+    void talk_on();
+    void poll();
+    void give_up();
+    SimTime talk_due() const;
+    void acknowledge(Judgement& judgement, std::uint64_t came);
     void send_all(const std::vector<const Send*>& sends, const Scope& scope);
     void send(std::string body);
+    void write(std::string_view body);
     void put(std::string_view bytes);
     std::string show_page(std::size_t page) const;
 
@@ -121,6 +137,9 @@ class Screen {
 
     std::shared_ptr<const ScreenProfile> profile_;
     LineIntake intake_;
+    Talk talk_;
+    std::vector<SimTime> polls_due_;
+    bool jammed_ = false;  ///< it never reads again
     std::vector<Shown> values_;
     std::size_t page_ = 0;
     std::size_t before_ = 0;

@@ -15,7 +15,7 @@ using behaviour::Json;
 using behaviour::ObjectReader;
 
 std::optional<std::size_t> Compiler::value(std::string_view name, const std::string& pointer) {
-    const auto id = profile.values.find(name);
+    const auto id = profile.values.want(name);
     if (!id) {
         findings.add(pointer, fmt::format("unknown value \"{}\"", name), profile.values.nearest(name));
     }
@@ -90,6 +90,11 @@ std::vector<Assign> Compiler::assigns(ObjectReader& reader, std::string_view key
         Assign assign;
         assign.value = *id;
         const ValueKind kind = profile.values.at(*id).kind;
+        if (profile.values.at(*id).field != nullptr) {
+            findings.add(pointer,
+                         fmt::format("\"{}\" is the machine's; \"do\": {{\"set\": ...}} sets it", name));
+            continue;
+        }
         if (kind == ValueKind::text && right.is_string()) {
             assign.text = compile(right.get_ref<const std::string&>(), pointer, allowed);
         } else if (kind == ValueKind::number && right.is_number()) {
@@ -160,8 +165,10 @@ std::optional<Target> Compiler::target(const Json& node, const std::string& poin
     reader.required("page");
     reader.text("page", path);
     reader.finish();
-    if (path == "<back>" || path == "<before>") {
-        out.where = path == "<back>" ? Target::Where::back : Target::Where::before;
+    if (path == "<back>" || path == "<before>" || path == "<close>") {
+        out.where = path == "<back>"     ? Target::Where::back
+                    : path == "<before>" ? Target::Where::before
+                                         : Target::Where::close;
         return out;
     }
     const auto hit = std::find(page_paths.begin(), page_paths.end(), path);

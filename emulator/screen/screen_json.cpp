@@ -19,15 +19,6 @@ Json utf8(const std::vector<std::string>& lines) {
     return out;
 }
 
-Json judged(const Judgement& judgement) {
-    Json out;
-    out["line"] = behaviour::from_wire(judgement.line);
-    out["frame"] = behaviour::from_wire(judgement.frame);
-    out["verdict"] = verdict_words(judgement.verdict);
-    out["why"] = judgement.why;
-    return out;
-}
-
 std::string dump(const Json& node, int indent) {
     return node.dump(indent, ' ', false, Json::error_handler_t::replace) + '\n';
 }
@@ -75,6 +66,33 @@ Json button_json(const ScreenProfile& profile, const ButtonView& view) {
 
 }  // namespace
 
+Json to_json(const Judgement& judgement) {
+    Json out;
+    out["line"] = behaviour::from_wire(judgement.line);
+    out["frame"] = behaviour::from_wire(judgement.frame);
+    out["verdict"] = verdict_words(judgement.verdict);
+    out["why"] = judgement.why;
+    return out;
+}
+
+Json face_json(const Standpoint& at) {
+    const PageView view = view_page(at);
+    Json out{{"screen", at.profile.name},
+             {"page", view.path},
+             {"title", view.title},
+             {"lines", view.lines},
+             {"buttons", Json::array()}};
+    for (const ButtonView& button : view.buttons) {
+        Json one = button_json(at.profile, button);
+        one["everywhere"] = button.everywhere;
+        if (button.input) {
+            one["input"]["normally"] = button.input->normally;
+        }
+        out["buttons"].push_back(std::move(one));
+    }
+    return out;
+}
+
 Json to_json(const TourResult& result) {
     Json one;
     one["button"] = result.button;
@@ -89,7 +107,7 @@ Json to_json(const TourResult& result) {
 }
 
 Json to_json(const Finding& finding) {
-    Json out = judged(finding.first);
+    Json out = to_json(finding.first);
     out["times"] = finding.times;
     return out;
 }
@@ -101,7 +119,7 @@ std::string result_json(const TourResult& result) {
 std::string judgement_json(const Judgement& judgement, SimTime at) {
     Json out;
     out["t"] = machine::to_seconds(at);
-    out["lint"] = judged(judgement);
+    out["lint"] = to_json(judgement);
     return dump(out, -1);
 }
 

@@ -14,6 +14,8 @@ namespace fauxboard::screen {
 
 /// {"button", "verdict", "sent", "expected", "came", "at_s", "took_s", "sentence"}
 behaviour::Json to_json(const TourResult& result);
+/// {"line", "frame", "verdict", "why"}
+behaviour::Json to_json(const Judgement& judgement);
 /// {"times", "line", "frame", "verdict", "why"}
 behaviour::Json to_json(const Finding& finding);
 
@@ -25,5 +27,9 @@ std::string judgement_json(const Judgement& judgement, SimTime at);
 /// "label", "row", "shut", "input"}], "findings"}, indented. `missing`: values that no line has brought.
 std::string page_json(const Standpoint& at, const std::vector<std::size_t>& missing,
                       std::span<const Finding> findings);
+
+/// The open page for somebody who draws it and presses: {"screen", "page", "title", "lines", "buttons":
+/// [{"path", "label", "row", "everywhere", "shut", "input": {"min", "max", "normally"}}]}.
+behaviour::Json face_json(const Standpoint& at);
 
 }  // namespace fauxboard::screen

@@ -39,24 +39,36 @@ void read_line_rules(Compiler& compiler, const Json& node, LineRules& out) {
     compiler.time(reader, "answer_after_ms", out.answer_after, 0, 1000);
     compiler.time(reader, "deaf_ms", out.deaf, 0, 60'000);
     reader.wire_text("hello", out.hello, 256);
+    reader.boolean("lf_only", out.lf_only);
+    reader.boolean("skips_blanks", out.skips_blanks);
+    number = 0;
+    reader.unsigned_integer("jams_at", number, 16, 65536);
+    out.jams_at = number;
     reader.finish();
 }
 
 /// The pages' paths, and for each the nearest page above it.
-void read_page_paths(Compiler& compiler, const Json& node) {
+void read_page_paths(Compiler& compiler, const Json& node, const Json& boxes) {
     ScreenProfile& profile = compiler.profile;
     if (!node.is_object()) {
         return;
     }
-    for (const auto& [path, page] : node.items()) {
-        if (profile.pages.size() == max_pages) {
-            compiler.findings.add("/pages", "more than 256 pages");
-            break;
+    const auto add = [&](const Json& all, PageFace::Kind kind) {
+        for (const auto& [path, page] : all.items()) {
+            if (profile.pages.size() == max_pages) {
+                compiler.findings.add("/pages", "more than 256 pages");
+                break;
+            }
+            Page one;
+            one.path = path;
+            one.title = path;
+            one.face.kind = kind;
+            profile.pages.push_back(std::move(one));
         }
-        Page one;
-        one.path = path;
-        one.title = path;
-        profile.pages.push_back(std::move(one));
+    };
+    add(node, PageFace::Kind::page);
+    if (boxes.is_object()) {
+        add(boxes, PageFace::Kind::box);
     }
     for (const Page& page : profile.pages) {
         compiler.page_paths.emplace_back(page.path);
@@ -88,6 +100,7 @@ void spread_buttons(Compiler& compiler, const Json& pages) {
         if (button.page == no_page) names.emplace_back(button.name);
     }
     for (Page& page : profile.pages) {
+        if (page.face.kind != PageFace::Kind::page) continue;
         std::vector<std::string> without;
         if (const auto list = pages[page.path].find("without"); list != pages[page.path].end()) {
             for_each_item(
@@ -118,6 +131,28 @@ std::string pointer_to(const Page& page) {
     return out;
 }
 
+/// Those of a board's own screen that no button has.
+template <class Take>
+void for_each_effect(const ScreenProfile& profile, Take&& take) {
+    if (!profile.display) {
+        return;
+    }
+    const Display& display = *profile.display;
+    for (const Effects* effects : {&display.power_on, &display.press, &display.idle}) {
+        std::for_each(effects->begin(), effects->end(), take);
+    }
+    for (const auto& [event, effects] : display.events) {
+        std::for_each(effects.begin(), effects.end(), take);
+    }
+    for (const Page& page : profile.pages) {
+        std::for_each(page.face.on_open.begin(), page.face.on_open.end(), take);
+        std::for_each(page.face.on_close.begin(), page.face.on_close.end(), take);
+    }
+    for (const Button& button : profile.buttons) {
+        if (button.control) std::for_each(button.control->hold.begin(), button.control->hold.end(), take);
+    }
+}
+
 /// Every page is led to by something, every path a preparation presses exists.
 void check_links(Compiler& compiler) {
     const ScreenProfile& profile = compiler.profile;
@@ -129,10 +164,16 @@ void check_links(Compiler& compiler) {
     };
     reached[profile.main_page] = true;
     mark(profile.idle_target);
-    for (const auto& [code, rule] : profile.codes) {
-        for (const FrameCase& one : rule.cases)
+    for_each_effect(profile, [&](const Effect& effect) { mark(effect.leads_to); });
+    const auto mark_rule = [&](const FrameRule& rule) {
+        for (const FrameCase& one : rule.cases) {
             mark(one.opens);
+        }
+    };
+    for (const auto& [code, rule] : profile.codes) {
+        mark_rule(rule);
     }
+    std::for_each(profile.words.begin(), profile.words.end(), mark_rule);
     for (const Button& button : profile.buttons) {
         mark(button.leads_to);
     }
@@ -183,12 +224,29 @@ void read_assumed(Compiler& compiler, const Json& node) {
     }
 }
 
+/// A board's own screen: instead of a line and its frames it has a display.
+template <class Part>
+void read_own(Compiler& compiler, Part&& part) {
+    compiler.display_start(part("display"));
+    compiler.translations(part("translations"));
+    compiler.looks_and_icons(part("looks"), part("icons"));
+    compiler.values(part("values"));
+    read_page_paths(compiler, part("pages"), part("boxes"));
+    compiler.display_rest(part("display"));
+    compiler.machine_events(part("events"));
+    compiler.display_idle(part("idle"));
+}
+
 void read_all(Compiler& compiler, const Json& root) {
     static const Json empty = Json::object();
     ObjectReader reader(root, "", compiler.findings);
     ScreenProfile& profile = compiler.profile;
-    for (const char* key : {"name", "values", "frames", "pages"}) {
+    const bool own = reader.has("display");
+    for (const char* key : {"name", "values", "pages"}) {
         reader.required(key);
+    }
+    if (!own) {
+        reader.required("frames");
     }
     reader.text("name", profile.name, 100);
     reader.text("title", profile.title, 200);
@@ -198,15 +256,24 @@ void read_all(Compiler& compiler, const Json& root) {
         return node == nullptr ? empty : *node;
     };
     read_assumed(compiler, part("assumed"));
-    read_line_rules(compiler, part("line"), profile.line);
-    compiler.values(part("values"));
-    read_page_paths(compiler, part("pages"));
-    compiler.frames(part("frames"));
-    read_idle(compiler, part("idle"));
+    if (own) {
+        read_own(compiler, part);
+    } else {
+        read_line_rules(compiler, part("line"), profile.line);
+        compiler.values(part("values"));
+        read_page_paths(compiler, part("pages"), empty);
+        compiler.frames(part("frames"));
+        compiler.talk(part("talk"));
+        read_idle(compiler, part("idle"));
+    }
     read_tour(compiler, part("tour"));
     if (!profile.pages.empty()) {
         compiler.pages(part("pages"));
         compiler.everywhere(part("everywhere"));
+        if (own) {
+            compiler.boxes(part("boxes"));
+            compiler.check_translations();
+        }
         if (profile.buttons.size() > max_buttons) {
             compiler.findings.add("/pages", "more than 2048 buttons");
         }

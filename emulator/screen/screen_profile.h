@@ -11,14 +11,12 @@
 
 #include "emulator/behaviour/source.h"
 #include "emulator/machine/sim_time.h"
+#include "emulator/screen/display.h"
 #include "emulator/screen/expression.h"
+#include "emulator/screen/judgement.h"
 #include "emulator/screen/values.h"
 
 namespace fauxboard::screen {
-
-using machine::SimTime;
-
-inline constexpr std::size_t no_page = static_cast<std::size_t>(-1);
 
 /// How the screen hears and speaks.
 struct LineRules {
@@ -32,11 +30,25 @@ struct LineRules {
     SimTime deaf{1'200'000};       ///< from power-on; what comes meanwhile is lost
     std::size_t code_within = 8;   ///< the L must stand in so many first bytes
     std::string hello;             ///< said once it hears, as it stands, line end included
+    bool lf_only = false;       ///< lines end with LF, both ways; a CR is part of one. Else CR ends one, too
+    bool skips_blanks = false;  ///< those at the start of a line
+    std::size_t jams_at = 0;    ///< a line of so many bytes: it never reads again; 0: none does
 };
 
 /// How one key of a frame is read.
 struct Read {
-    enum class As : std::uint8_t { u8, u16, i32, real, text, mark, list_start, list_entry, list_end };
+    enum class As : std::uint8_t {
+        u8,
+        u16,
+        i32,
+        real,
+        text,
+        mark,
+        list_start,
+        list_entry,
+        list_end,
+        list_append
+    };
     enum class From : std::uint8_t { last, start, column };
     enum class Bad : std::uint8_t { drop_rest, crash, zero, cut };
 
@@ -44,7 +56,7 @@ struct Read {
     From from = From::last;
     std::size_t column = 0;
     As as = As::real;
-    std::optional<std::size_t> into;  ///< value, or list for list_start and list_entry
+    std::optional<std::size_t> into;  ///< value; for list_start, list_entry and list_append a list
     std::optional<double> min;
     std::optional<double> max;
     bool bounds_first =
@@ -61,39 +73,58 @@ struct Read {
     std::vector<Read> then;  ///< read only if this one was found, from where it ended
 };
 
-/// What a page change leads to. The first target whose conditions hold.
-struct Target {
-    enum class Where : std::uint8_t { page, back, before };
-    std::vector<Condition> when;
-    Where where = Where::page;
-    std::size_t page = no_page;
-};
-
-struct Assign {
-    std::size_t value = 0;
-    Template text;          ///< of a text value
-    Expression expression;  ///< of a number
-};
-
 struct Send {
     std::vector<Condition> when;
     Template line;  ///< the body
 };
 
-/// One way to take a frame; the first whose words all stand in the line.
+/// One way to take a frame; the first whose words all stand in the line, and whose conditions hold.
 struct FrameCase {
     std::vector<std::string> has;
-    std::string ignored;  ///< not empty: known and of no effect, and why
+    std::vector<std::string> lacks;  ///< none of them may stand in the line
+    std::vector<Condition> when;
+    std::string ignored;            ///< not empty: known and of no effect, and why
+    Verdict verdict = Verdict::ok;  ///< what a line taken so does to the screen beside what it brings
+    std::string why;                ///< of `verdict`
     std::vector<Read> read;
+    std::vector<Assign> assume;        ///< after it was read
+    bool acknowledges = false;         ///< it ends the command that is under way
+    std::vector<std::string> answers;  ///< the waits that it ends; see TalkRules::Wait
+    bool forgets = false;              ///< the board started anew: nothing is under way any more
     std::vector<Target> opens;
     std::vector<Send> answer;
     bool restarts = false;
 };
 
 struct FrameRule {
-    std::string name;   ///< "L3", or the words a line without code starts with
-    std::string title;  ///< "temperatures"
+    std::string name;       ///< "L3", or the words a line without code starts with
+    std::string title;      ///< "temperatures"
+    bool anywhere = false;  ///< the words may stand anywhere; a line that no case is for goes on
+    bool goes_on = false;   ///< the rules below it take the line, too
     std::vector<FrameCase> cases;
+};
+
+/// How a screen speaks that sends one command at a time and waits for its acknowledgement.
+struct TalkRules {
+    /// What the screen asks again and again.
+    struct Poll {
+        SimTime every{0};
+        std::vector<Condition> when;
+        std::vector<Assign> assume;  ///< each time, before anything is sent
+        std::vector<Send> send;      ///< not again while the same still waits for its turn
+    };
+    /// A command for whose answer it waits with everything else shut: an acknowledgement alone does not do.
+    struct Wait {
+        std::string command;  ///< how it starts: "M21"
+        std::string why;      ///< what becomes of the screen without the answer
+    };
+    bool queued = false;  ///< else everything is sent at once and nothing is waited for
+    std::size_t most_waiting = 64;
+    SimTime timeout{15'000'000};       ///< without a line for so long, it gives up waiting
+    std::string timed_out;             ///< what it says then
+    std::vector<std::string> at_once;  ///< commands that overtake, and are not waited for
+    std::vector<Poll> polls;
+    std::vector<Wait> waits;
 };
 
 /// One frame or line that must come back.
@@ -136,6 +167,7 @@ struct Button {
     SimTime settle{0};  ///< the machine is busy so long after the last expectation
     std::optional<Input> input;
     std::optional<std::size_t> rows;  ///< stands once per entry of this list
+    std::optional<Control> control;   ///< on a board's own screen
 };
 
 struct Page {
@@ -150,6 +182,7 @@ struct Page {
     std::vector<Expectation> expect;     ///< what must come back then
     bool stays = false;                  ///< does not fall back when nobody touches it
     std::vector<std::string> opened_by;  ///< bodies of frames that open it, for the tour
+    PageFace face;                       ///< on a board's own screen
 };
 
 /// A screen, checked and compiled. Immutable; many screens may share it.
@@ -160,6 +193,7 @@ class ScreenProfile {
     std::vector<std::string> files;    ///< what it was read from, base first
     std::vector<std::string> assumed;  ///< what no source says, a sentence each
     LineRules line;
+    TalkRules talk;
     ValueTable values;
     std::map<unsigned, FrameRule> codes;  ///< L codes
     std::vector<FrameRule> words;         ///< lines without one
@@ -171,6 +205,7 @@ class ScreenProfile {
     SimTime silence{500'000};          ///< so long the tour listens where nothing must come
     std::vector<Prepare> tour_first;   ///< before the first button
     std::vector<std::string> unasked;  ///< frames and lines the board sends by itself
+    std::optional<Display> display;    ///< of a board's own screen; nothing: it hangs on a line
 
     std::optional<std::size_t> find_page(std::string_view path) const;
     /// The names of the frames that set this value: "L2, L6".

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -20,12 +21,22 @@ namespace {
 
 constexpr double tolerance = 0.0005;
 
-/// The id of a text value, or -1 for `row.text`; nothing when `name` is neither.
-std::optional<std::ptrdiff_t> text_value(std::string_view name, const ValueTable& table, Allowed allowed) {
+constexpr std::ptrdiff_t whole_row = -1;
+constexpr std::ptrdiff_t first_column = -2;  ///< and from there on downwards
+
+/// The id of a text value; for `row.text` and the columns of the row what stands above; nothing when `name`
+/// is none of these.
+std::optional<std::ptrdiff_t> text_value(std::string_view name, ValueTable& table, Allowed allowed) {
     if (name == "row.text" && allowed.row) {
-        return -1;
+        return whole_row;
     }
-    const auto id = table.find(name);
+    if (name.starts_with("row.") && allowed.columns != nullptr) {
+        const auto hit = std::find(allowed.columns->begin(), allowed.columns->end(), name.substr(4));
+        if (hit != allowed.columns->end()) {
+            return first_column - (hit - allowed.columns->begin());
+        }
+    }
+    const auto id = table.want(name);
     if (id && table.at(*id).kind == ValueKind::text) {
         return static_cast<std::ptrdiff_t>(*id);
     }
@@ -40,13 +51,31 @@ constexpr std::array<std::pair<std::string_view, Condition::Test>, 6> tests{
      {"ends_not_with", Condition::Test::ends_not_with},
      {"starts_not_with", Condition::Test::starts_not_with}}};
 
+std::string_view cell(const Scope& scope, std::size_t column) {
+    return column < scope.row_cells.size() ? std::string_view(scope.row_cells[column]) : std::string_view{};
+}
+
+/// A number written in so many digits at most, from the front of `text`, which loses them.
+std::optional<std::size_t> digits(std::string_view& text) {
+    std::size_t out = 0;
+    const auto read = std::from_chars(text.data(), text.data() + std::min<std::size_t>(text.size(), 3), out);
+    text.remove_prefix(static_cast<std::size_t>(read.ptr - text.data()));
+    return read.ec == std::errc{} ? std::optional(out) : std::nullopt;
+}
+
+/// A file's name without its ending, or that ending with its dot.
+std::string_view stem_of(std::string_view name) {
+    return name.substr(0, std::min(name.rfind('.'), name.size()));
+}
+
 std::int64_t whole(double value) {
     return std::isfinite(value) ? static_cast<std::int64_t>(std::clamp(value, -1e15, 1e15)) : 0;
 }
 
 }  // namespace
 
-Template::Template(std::string_view source, const ValueTable& table, Allowed allowed) : source_(source) {
+Template::Template(std::string_view source, ValueTable& table, Allowed allowed, const Dictionary* words)
+    : source_(source) {
     std::string literal;
     const auto flush = [&] {
         if (!literal.empty()) {
@@ -67,7 +96,7 @@ Template::Template(std::string_view source, const ValueTable& table, Allowed all
                 throw ExpressionError("a brace without its partner in \"" + source_ + "\"", {});
             }
             flush();
-            add_place(source.substr(1, end - 1), table, allowed);
+            add_place(source.substr(1, end - 1), table, allowed, words);
             source.remove_prefix(end + 1);
         } else {
             literal += c;
@@ -77,34 +106,78 @@ Template::Template(std::string_view source, const ValueTable& table, Allowed all
     flush();
 }
 
-void Template::add_place(std::string_view inside, const ValueTable& table, Allowed allowed) {
+bool Template::text_format(std::string_view format, Part& part) {
+    if (format.empty()) {
+        return true;
+    }
+    if (format == "stem" || format == "ending") {
+        part.piece = format == "stem" ? Piece::stem : Piece::ending;
+        return true;
+    }
+    const auto from = digits(format);
+    if (!from || !format.starts_with('+')) {
+        return false;
+    }
+    format.remove_prefix(1);
+    const auto size = digits(format);
+    part.piece = Piece::slice;
+    part.from = *from;
+    part.size = size.value_or(0);
+    return size && format.empty();
+}
+
+bool Template::number_format(std::string_view format, Part& part) {
+    const bool digit = format.size() == 3 && format[1] >= '0' && format[1] <= '9';
+    if (format.empty()) {
+        part.style = Style::shortest;
+    } else if (format == "d" || (digit && format[0] == '0' && format[2] == 'd')) {
+        part.style = Style::whole;
+        part.decimals = format == "d" ? 0 : format[1] - '0';
+    } else if (digit && format[0] == '.' && format[1] <= '6' && format[2] == 'f') {
+        part.style = Style::fixed;
+        part.decimals = format[1] - '0';
+    } else if (format == "hms" || format == "hm") {
+        part.style = Style::clock;
+        part.decimals = static_cast<int>(format.size());
+    } else {
+        return false;
+    }
+    return true;
+}
+
+void Template::add_place(std::string_view inside, ValueTable& table, Allowed allowed,
+                         const Dictionary* words) {
     const std::size_t colon = inside.rfind(':');
     const std::string_view name = inside.substr(0, colon);
     const std::string_view format = colon == std::string_view::npos ? "" : inside.substr(colon + 1);
     Part part;
     if (const auto text = text_value(name, table, allowed)) {
-        if (!format.empty()) {
-            throw ExpressionError(fmt::format("{{{}}} is a text; expected no format", inside), {});
+        part.style = *text == whole_row ? Style::row_text : *text < 0 ? Style::cell : Style::text;
+        part.value =
+            static_cast<std::size_t>(*text < 0 ? std::max<std::ptrdiff_t>(first_column - *text, 0) : *text);
+        if (!text_format(format, part)) {
+            throw ExpressionError(fmt::format("{{{}}} is a text; expected no format, or one of stem, ending, "
+                                              "A+N (N bytes from A on)",
+                                              inside),
+                                  {});
         }
-        part.style = *text < 0 ? Style::row_text : Style::text;
-        part.value = *text < 0 ? 0 : static_cast<std::size_t>(*text);
     } else {
         part.expression = Expression(name, table, allowed);
-        if (format.empty()) {
-            part.style = Style::shortest;
-        } else if (format == "d") {
-            part.style = Style::whole;
-        } else if (format.size() == 3 && format[0] == '.' && format[1] >= '0' && format[1] <= '6' &&
-                   format[2] == 'f') {
-            part.style = Style::fixed;
-            part.decimals = format[1] - '0';
-        } else if (format == "name" && table.find(name)) {
+        if (format == "name" && table.find(name)) {
             part.style = Style::named;
             part.names = table.at(*table.find(name)).names;
-        } else {
+            for (auto& [number, word] : part.names) {
+                if (const auto hit = words == nullptr ? Dictionary::const_iterator{} : words->find(word);
+                    words != nullptr && hit != words->end()) {
+                    word = hit->second;
+                }
+            }
+        } else if (!number_format(format, part)) {
             throw ExpressionError(
-                fmt::format("unknown format \"{}\" in {{{}}}; expected .0f to .6f, d, or name", format,
-                            inside),
+                fmt::format(
+                    "unknown format \"{}\" in {{{}}}; expected .0f to .6f, d, 01d to 09d, hms, hm, or "
+                    "name",
+                    format, inside),
                 {});
         }
     }
@@ -115,56 +188,75 @@ void Template::add_place(std::string_view inside, const ValueTable& table, Allow
     parts_.push_back(std::move(part));
 }
 
+std::string_view Template::text_of(const Part& part, const Scope& scope) {
+    const std::string_view text = part.style == Style::row_text ? scope.row_text
+                                  : part.style == Style::cell
+                                      ? cell(scope, part.value)
+                                      : std::string_view(scope.values[part.value].text);
+    switch (part.piece) {
+        case Piece::slice:
+            return part.from < text.size() ? text.substr(part.from, part.size) : std::string_view{};
+        case Piece::stem:
+            return stem_of(text);
+        case Piece::ending:
+            return text.substr(stem_of(text).size());
+        case Piece::all:
+            break;
+    }
+    return text;
+}
+
+std::string Template::number_of(const Part& part, const Scope& scope) {
+    const double value = part.expression.evaluate(scope);
+    switch (part.style) {
+        case Style::fixed:
+            return fixed_text(value, part.decimals);
+        case Style::whole:
+            return fmt::format("{:0{}d}", whole(value), part.decimals);
+        case Style::clock: {
+            const std::int64_t s = std::max<std::int64_t>(whole(value), 0);
+            return fmt::format("{:02d}:{:02d}", s / 3600, s / 60 % 60) +
+                   (part.decimals == 3 ? fmt::format(":{:02d}", s % 60) : "");
+        }
+        case Style::named:
+            if (const auto hit = part.names.find(whole(value)); hit != part.names.end()) {
+                return hit->second;
+            }
+            break;
+        default:
+            break;
+    }
+    return short_text(value);
+}
+
 std::string Template::render(const Scope& scope, bool for_people) const {
-    const auto shown = [&](std::string_view text) {
-        return for_people ? printable(text) : std::string(text);
-    };
     std::string out;
     for (const Part& part : parts_) {
-        const bool number = part.style != Style::literal && part.style < Style::text;
-        const double value = number ? part.expression.evaluate(scope) : 0;
-        switch (part.style) {
-            case Style::literal:
-                out += part.literal;
-                break;
-            case Style::fixed:
-                out += fixed_text(value, part.decimals);
-                break;
-            case Style::whole:
-                out += fmt::format("{}", whole(value));
-                break;
-            case Style::shortest:
-                out += short_text(value);
-                break;
-            case Style::named: {
-                const auto hit = part.names.find(whole(value));
-                out += hit == part.names.end() ? short_text(value) : hit->second;
-                break;
-            }
-            case Style::text:
-                out += shown(scope.values[part.value].text);
-                break;
-            case Style::row_text:
-                out += shown(scope.row_text);
-                break;
+        if (part.style == Style::literal) {
+            out += part.literal;
+        } else if (part.style < Style::text) {
+            out += number_of(part, scope);
+        } else if (for_people) {
+            out += printable(text_of(part, scope));
+        } else {
+            out += text_of(part, scope);
         }
     }
     return out;
 }
 
-Condition::Condition(std::string_view left, const Json& right, const ValueTable& table, Allowed allowed)
+Condition::Condition(std::string_view left, const Json& right, ValueTable& table, Allowed allowed)
     : source_(left) {
     if (const auto text = text_value(left, table, allowed)) {
         is_text_ = true;
-        row_text_ = *text < 0;
-        value_ = *text < 0 ? 0 : static_cast<std::size_t>(*text);
+        value_ = *text;
     } else {
         left_ = Expression(left, table, allowed);
     }
     set_right(right, table, allowed);
 }
 
-void Condition::set_right(const Json& right, const ValueTable& table, Allowed allowed) {
+void Condition::set_right(const Json& right, ValueTable& table, Allowed allowed) {
     if (!right.is_object()) {
         add_operand(right, table, allowed);
         return;
@@ -202,7 +294,7 @@ void Condition::set_right(const Json& right, const ValueTable& table, Allowed al
     }
 }
 
-void Condition::set_range(const Json& right, const ValueTable& table, Allowed allowed) {
+void Condition::set_range(const Json& right, ValueTable& table, Allowed allowed) {
     has_min_ = right.contains("min");
     has_max_ = right.contains("max");
     test_ = Test::range;
@@ -217,7 +309,7 @@ void Condition::set_range(const Json& right, const ValueTable& table, Allowed al
     }
 }
 
-void Condition::add_operand(const Json& value, const ValueTable& table, Allowed allowed) {
+void Condition::add_operand(const Json& value, ValueTable& table, Allowed allowed) {
     if (is_text_) {
         if (!value.is_string()) {
             throw ExpressionError("\"" + source_ + "\" is a text; expected a text to compare it with", {});
@@ -269,7 +361,13 @@ bool Condition::holds(const Scope& scope) const {
     if (!is_text_) {
         return holds_number(scope);
     }
-    return holds_text(row_text_ ? scope.row_text : std::string_view(scope.values[value_].text));
+    return holds_text(text(scope));
+}
+
+std::string_view Condition::text(const Scope& scope) const {
+    return value_ == whole_row ? scope.row_text
+           : value_ < 0        ? cell(scope, static_cast<std::size_t>(first_column - value_))
+                               : std::string_view(scope.values[static_cast<std::size_t>(value_)].text);
 }
 
 Condition Condition::frozen(const Scope& scope) const {
@@ -284,7 +382,7 @@ std::string Condition::now(const Scope& scope) const {
     if (!is_text_) {
         return short_text(left_.evaluate(scope));
     }
-    return '"' + printable(row_text_ ? scope.row_text : std::string_view(scope.values[value_].text)) + '"';
+    return '"' + printable(text(scope)) + '"';
 }
 
 std::string Condition::words(const Scope& scope) const {
@@ -312,6 +410,20 @@ std::string Condition::words(const Scope& scope) const {
             return fmt::format("{} does not start with {}", source_, list);
         default:
             return fmt::format("{} is {}{}", source_, right.size() > 1 ? "one of " : "", list);
+    }
+}
+
+void assign(const std::vector<Assign>& assigns, const ValueTable& table, const Scope& scope,
+            std::span<Shown> values) {
+    std::vector<Shown> fresh;
+    for (const Assign& one : assigns) {
+        const bool text = table.at(one.value).kind == ValueKind::text;
+        fresh.push_back(
+            {text ? 0 : one.expression.evaluate(scope), text ? one.text.render(scope) : "", {}, {}, {}});
+    }
+    for (std::size_t i = 0; i < assigns.size(); ++i) {
+        values[assigns[i].value].number = fresh[i].number;
+        values[assigns[i].value].text = std::move(fresh[i].text);
     }
 }
 

@@ -96,6 +96,11 @@ void Tour::collect() {
         }
     }
     seen_ = screen_.counters().lines_received;
+    if (timeouts_ != screen_.counters().timeouts) {
+        timeouts_ = screen_.counters().timeouts;
+        listener_.look(screen_);
+        wake_ = std::min(wake_, screen_.time());
+    }
 }
 
 bool Tour::step() {
@@ -160,7 +165,8 @@ void Tour::start_press(Goal& goal, const std::string& path) {
 }
 
 bool Tour::show_frame(std::string_view body) {
-    screen_.receive(screen_.time(), protocol::frame(body));
+    screen_.receive(screen_.time(),
+                    screen_.profile().line.lf_only ? std::string(body) + '\n' : protocol::frame(body));
     hold_ = screen_.time() + shown_for;
     return false;
 }
@@ -259,6 +265,7 @@ bool Tour::touch_on_the_way(Goal& goal, const Step& step) {
     if (pressed.sent.empty()) {
         return true;
     }
+    listener_.expect_acknowledged(screen_);
     listener_.start(screen_.time());
     goal.phase = Phase::listening_on_the_way;
     wait_for_lines();
@@ -278,6 +285,8 @@ bool Tour::touch(Goal& goal) {
     goal.result.sent = pressed.sent;
     if (pressed.sent.empty()) {
         listener_.expect_silence();
+    } else {
+        listener_.expect_acknowledged(screen_);
     }
     goal.result.expected = listener_.expected_words();
     listener_.start(screen_.time());

@@ -100,6 +100,7 @@ class Tour {
     SimTime wake_{0};               ///< nothing is done before, unless a line comes
     std::optional<SimTime> limit_;  ///< of a wait for a value
     std::uint64_t seen_ = 0;        ///< lines judged so far
+    std::uint64_t timeouts_ = 0;    ///< of the screen so far
     SimTime last_touch_;            ///< of any button; at first, when the tour began
     std::vector<TourResult> results_;
 };

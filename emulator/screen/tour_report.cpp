@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "emulator/behaviour/document.h"
 #include "emulator/behaviour/junit.h"
@@ -32,6 +33,21 @@ std::string joined(const std::vector<std::string>& lines, std::size_t most) {
         }
     }
     return out;
+}
+
+/// What can go wrong with the talk of a screen that sends one command at a time, and how often it did.
+struct Mishap {
+    const char* key;
+    const char* words;
+    std::uint64_t count;
+};
+std::array<Mishap, 5> mishaps(const ScreenCounters& counters) {
+    const auto judged = [&](Verdict verdict) { return counters.verdicts[static_cast<std::size_t>(verdict)]; };
+    return {{{"timeouts", "time-outs", counters.timeouts},
+             {"desynchronised", "desynchronised", judged(Verdict::runs_ahead)},
+             {"stalls", "stalls", judged(Verdict::stalls)},
+             {"jams", "jams", judged(Verdict::jams)},
+             {"crashes", "crashes", counters.crashes}}};
 }
 
 std::string class_name(std::string_view screen, std::string_view button) {
@@ -65,7 +81,7 @@ std::string tour_table(std::span<const TourResult> results) {
 }
 
 std::string tour_json(std::string_view screen, std::span<const TourResult> results,
-                      std::span<const Finding> findings) {
+                      std::span<const Finding> findings, const ScreenCounters* talk) {
     Json root;
     root["screen"] = screen;
     root["passed"] = count(results, TourVerdict::met) == results.size();
@@ -83,7 +99,20 @@ std::string tour_json(std::string_view screen, std::span<const TourResult> resul
     for (const Finding& finding : findings) {
         root["findings"].push_back(to_json(finding));
     }
+    if (talk != nullptr) {
+        for (const Mishap& one : mishaps(*talk)) {
+            root[one.key] = one.count;
+        }
+    }
     return root.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+std::string talk_text(const ScreenCounters& counters) {
+    std::vector<std::string> parts;
+    for (const Mishap& one : mishaps(counters)) {
+        parts.push_back(fmt::format("{} {}", one.count, one.words));
+    }
+    return fmt::format("{}\n", fmt::join(parts, ", "));
 }
 
 std::string tour_junit(std::string_view screen, std::span<const TourResult> results) {

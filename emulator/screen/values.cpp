@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "emulator/behaviour/fields.h"
+#include "emulator/behaviour/lists.h"
 #include "emulator/behaviour/nearest.h"
 #include "emulator/behaviour/number_text.h"
 #include "emulator/behaviour/wire_text.h"
@@ -24,10 +26,40 @@ std::optional<std::size_t> ValueTable::find(std::string_view name) const {
     return hit == ids_.end() ? std::nullopt : std::optional(hit->second);
 }
 
+std::optional<std::size_t> ValueTable::want(std::string_view name) {
+    if (const auto id = find(name); id || !machine_) {
+        return id;
+    }
+    ValueInfo info;
+    info.name = name;
+    if (const behaviour::List* list = behaviour::find_list(name)) {
+        info.kind = ValueKind::list;
+        info.source = list;
+        info.columns.assign(list->columns.begin(), list->columns.end());
+        add(std::move(info));
+        return infos_.size() - 1;
+    }
+    const behaviour::Field* field = behaviour::find_field(name);
+    if (field == nullptr) {
+        return std::nullopt;
+    }
+    info.kind = field->type == behaviour::FieldType::text ? ValueKind::text : ValueKind::number;
+    info.unit = field->unit;
+    info.help = field->help;
+    info.field = field;
+    add(std::move(info));
+    return infos_.size() - 1;
+}
+
 std::string ValueTable::nearest(std::string_view name) const {
     std::vector<std::string_view> names;
     for (const ValueInfo& info : infos_) {
         names.emplace_back(info.name);
+    }
+    if (machine_) {
+        for (const behaviour::Field& field : behaviour::fields()) {
+            names.emplace_back(field.path);
+        }
     }
     return std::string(behaviour::nearest(name, names));
 }

@@ -36,6 +36,16 @@ class Player final : public board::Observer {
     /// Valid when done().
     const Outcome& outcome() const { return *outcome_; }
     const Scenario& scenario() const { return *scenario_; }
+    /// What came of the outermost steps so far; the one under way is the number running().
+    const std::vector<StepResult>& results() const { return outcome_ ? outcome_->results : results_; }
+    std::size_t running() const { return main_; }
+    /// A branch, and what it waits for.
+    struct Waiting {
+        std::string branch;
+        std::string words;
+        SimTime since{0};
+    };
+    std::vector<Waiting> waiting() const;
     /// Something has passed that advance() has not seen yet.
     bool wants_turn() const { return !passed_.empty(); }
 
@@ -89,6 +99,9 @@ class Player final : public board::Observer {
     void in_vain(Branch& branch, const Step& step, const std::string& time);
     bool see(Branch& branch, const Passed& passed);
     bool holds(const Trigger& trigger);
+    Json look() const;
+    std::string page_shown() const;
+    std::string text_shown() const;
     void guard(const Passed& passed);
     void guard_states();
     SimTime real_limit(const Step& step) const;

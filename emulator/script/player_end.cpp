@@ -43,6 +43,17 @@ std::string value_words(const board::Board& board, const std::string& name) {
 
 }  // namespace
 
+std::vector<Player::Waiting> Player::waiting() const {
+    std::vector<Waiting> out;
+    for (const auto& branch : branches_) {
+        if (!branch->over && branch->watching != nullptr) {
+            const Step& step = *branch->watching;
+            out.push_back({branch->name, step.why.empty() ? step.words : step.why, branch->began});
+        }
+    }
+    return out;
+}
+
 /// The outermost step `index` begins, so those before it are done.
 void Player::main_step(std::size_t index) {
     if (main_ < results_.size()) {
@@ -68,7 +79,7 @@ std::string Player::explain(const Trigger& trigger) const {
         return fmt::format("{}", fmt::join(words, ", "));
     }
     if (trigger.is_state()) {
-        return fmt::format("it shows the page \"{}\"", stage_->screen()->page().path);
+        return fmt::format("it shows the page \"{}\"", page_shown());
     }
     const std::pair<Talk::From, const char*> speaking = speaker(trigger.kind);
     const Talk::From from = speaking.first;

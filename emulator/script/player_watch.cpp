@@ -82,6 +82,35 @@ bool Player::see(Branch& branch, const Passed& passed) {
     return false;
 }
 
+Json Player::look() const {
+    Json out;
+    stage_->visit([&](board::Board& board, SimTime now) {
+        board.refresh(now);
+        out = stage_->display()->page(now);
+    });
+    return out;
+}
+
+std::string Player::page_shown() const {
+    const screen::Screen* screen = stage_->screen();
+    return screen != nullptr ? screen->page().path : look().value("page", "");
+}
+
+std::string Player::text_shown() const {
+    if (const screen::Screen* screen = stage_->screen()) {
+        return screen->show();
+    }
+    const Json page = look();
+    std::string out = page.value("title", "") + '\n';
+    for (const Json& text : page.at("texts")) {
+        out += text.get<std::string>() + '\n';
+    }
+    if (const Json& box = page.at("box"); box.is_object()) {
+        out += box.value("caption", "") + '\n' + box.value("text", "") + '\n';
+    }
+    return out;
+}
+
 bool Player::holds(const Trigger& trigger) {
     bool out = false;
     if (trigger.kind == Trigger::Kind::field) {
@@ -92,11 +121,10 @@ bool Player::holds(const Trigger& trigger) {
         });
         return out;
     }
-    const screen::Screen* screen = stage_->screen();
     if (trigger.kind == Trigger::Kind::page) {
-        return screen->standpoint().page == trigger.page;
+        return page_shown() == scenario_->cast.screen->pages[trigger.page].path;
     }
-    const std::string shown = trigger.kind == Trigger::Kind::judged ? judged(*screen) : screen->show();
+    const std::string shown = trigger.kind == Trigger::Kind::judged ? judged(*screen) : text_shown();
     const std::string bytes = behaviour::to_wire(shown).value_or(shown);
     std::string_view rest = bytes;
     while (!rest.empty() && !out) {

@@ -87,12 +87,15 @@ struct Step {
     bool next = false;                                     ///< the very next line has to be it
     bool now = false;                                      ///< it has to be so at once
 
-    // Acts: do, set, send, request, host, press, fault, clear, note, upload.
+    // Acts: do, set, send, request, host, press, touch, screenshot, fault, clear, note, upload.
     std::vector<behaviour::ActionCall> calls;
     std::optional<behaviour::Send> frame;
     std::string bytes;      ///< for the line; of a file
     bool numbered = false;  ///< they get the number that the board expects, and a checksum
-    std::string text;       ///< a button, a fault's name, a note, a file's name
+    std::string text;       ///< a button, a control, a fault's name, a note, a file's name
+    int x = 0;              ///< a pixel to touch, when there is no text
+    int y = 0;
+    SimTime lasts{0};  ///< of a touch
     std::optional<fault::FaultSpec> fault;
 
     // Blocks: repeat, together, include, never with steps.

@@ -23,6 +23,12 @@ class Stage {
     virtual const screen::Screen* screen() = 0;
     /// Touches a button of that screen, walking to its page. Never called without one.
     virtual screen::PressResult press(std::string_view path) = 0;
+    /// What shows the board to a person and takes touches; null when nothing does.
+    virtual control::Display* display() { return nullptr; }
+    /// Keeps a picture under that name. Why not; empty when it was kept.
+    virtual std::string keep_picture(const std::string& /*file*/, std::string_view /*png*/) {
+        return "pictures cannot be kept here";
+    }
     /// Words of the scenario for whoever watches.
     virtual void note(std::string_view words) = 0;
 };

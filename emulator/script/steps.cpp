@@ -8,8 +8,8 @@ namespace fauxboard::script {
 std::span<const StepKind> step_kinds() {
     static const std::vector<StepKind> table = [] {
         std::vector<StepKind> all;
-        for (const auto part :
-             {rows::act_steps(), rows::watch_steps(), rows::block_steps(), rows::upload_steps()}) {
+        for (const auto part : {rows::act_steps(), rows::display_steps(), rows::watch_steps(),
+                                rows::block_steps(), rows::upload_steps()}) {
             all.insert(all.end(), part.begin(), part.end());
         }
         return all;

@@ -72,6 +72,7 @@ Json describe_scenarios();
 
 namespace rows {
 std::span<const StepKind> act_steps();
+std::span<const StepKind> display_steps();
 std::span<const StepKind> watch_steps();
 std::span<const StepKind> block_steps();
 std::span<const StepKind> upload_steps();

@@ -120,7 +120,8 @@ std::string run_host(Acting& acting, const Step& step) {
         std::string line = step.bytes;
         if (step.numbered) {
             board.refresh(now);
-            line = fmt::format("N{} {}", board.machine().host_side().last_line + 1, line);
+            const auto& usb = board.machine().host_side().lines[machine::HostSide::usb_port];
+            line = fmt::format("N{} {}", usb.last + 1, line);
             line += fmt::format("*{}", protocol::xor_checksum(line));
         }
         board.connect(board::Channel::host, true);
@@ -144,7 +145,25 @@ void compile_press(Compiler& c, const Json& value, ObjectReader& reader, Step& o
     c.button(out.text, at);
 }
 
+/// On a screen that is part of the board: the control of the page that is open.
+std::string press_own(Acting& acting, std::string_view path) {
+    constexpr SimTime usual_touch{120'000};
+    control::Display* display = acting.stage.display();
+    if (display == nullptr) {
+        return "this run has no screen";
+    }
+    std::string why;
+    acting.stage.visit([&](board::Board& board, SimTime now) {
+        board.refresh(now);
+        why = display->touch(now, path.substr(path.rfind('/') + 1), usual_touch).why;
+    });
+    return why;
+}
+
 std::string run_press(Acting& acting, const Step& step) {
+    if (acting.stage.screen() == nullptr) {
+        return press_own(acting, step.text);
+    }
     if (!acting.stage.screen()->ready()) {
         return fmt::format("\"{}\" cannot be pressed: the screen is still starting", step.text);
     }

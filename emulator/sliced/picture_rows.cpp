@@ -12,7 +12,7 @@ Outcome<PictureRows> PictureRows::of_layer(const SlicedFile& file, const ByteSou
         if (!layer) {
             return Outcome<PictureRows>::failure(layer.problem());
         }
-        rows.planes_.push_back({PictureRuns::of_layer(file, source, n, *layer)});
+        rows.planes_.push_back({PictureRuns::of_layer(file, source, n, *layer, plane)});
     }
     return rows;
 }

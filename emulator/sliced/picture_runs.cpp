@@ -19,6 +19,17 @@ std::string rle1(ByteWindow& window, Run& run) {
     return {};
 }
 
+/// photons: bit 0 is the pixel; bits 7 to 1, lowest first, are how many less one.
+std::string rle_reversed(ByteWindow& window, Run& run) {
+    const auto byte = static_cast<std::uint32_t>(window.next());
+    run.value = (byte & 1) != 0 ? 255 : 0;
+    run.pixels = 1;
+    for (unsigned bit = 0; bit < 7; ++bit) {
+        run.pixels += (byte >> (7 - bit) & 1) << bit;
+    }
+    return {};
+}
+
 /// How long the length of a run is in ctb: what its first byte looks like, and how many bytes follow.
 struct LengthForm {
     std::uint32_t mask;
@@ -91,18 +102,54 @@ std::string rle15(ByteWindow& window, Run& run) {
     return {};
 }
 
+/// Previews of a word a pixel: five bits of red, six of green, five of blue.
+std::string one_word(int word, Run& run) {
+    if (word < 0) {
+        return cut_off();
+    }
+    const auto bits = static_cast<std::uint32_t>(word);
+    const std::uint32_t red = bits >> 11;
+    const std::uint32_t green = bits >> 5 & 0x3F;
+    const std::uint32_t blue = bits & 0x1F;
+    run.value = (red << 3 | red >> 2) << 16 | (green << 2 | green >> 4) << 8 | (blue << 3 | blue >> 2);
+    run.pixels = 1;
+    return {};
+}
+std::string rgb565(ByteWindow& window, Run& run) {
+    return one_word(next_u16(window), run);
+}
+std::string rgb565_big(ByteWindow& window, Run& run) {
+    const int word = next_u16(window);
+    return one_word(word < 0 ? word : (word & 0xFF) << 8 | word >> 8, run);
+}
+
+constexpr std::array<PictureRuns::Codec, 4> layer_codecs{rle1, rle7, rle1, rle_reversed};  // by Format
+constexpr std::array<PictureRuns::Codec, 3> preview_codecs{rle15, rgb565, rgb565_big};     // by PreviewCoding
+
 }  // namespace
 
 PictureRuns PictureRuns::of_layer(const SlicedFile& file, const ByteSource& source, std::uint32_t n,
-                                  const Layer& layer) {
-    const bool ctb = file.header().format == Format::ctb;
-    const Cipher cipher = ctb ? Cipher(file.header().key, n) : Cipher();
-    return {{source, layer.data_offset, layer.data_bytes, cipher}, ctb ? rle7 : rle1, file.header().pixels()};
+                                  const Layer& layer, std::uint32_t plane) {
+    const Header& header = file.header();
+    const Cipher cipher = header.format == Format::ctb ? Cipher(header.key, n) : Cipher();
+    PictureRuns runs({source, layer.data_offset, layer.data_bytes, cipher},
+                     layer_codecs[static_cast<std::size_t>(header.format)], header.pixels());
+    if (header.sets_in_one) {
+        runs.more_follow_ = true;
+        Run passed;
+        for (std::uint32_t before = 0; before < plane && runs.problem_.empty(); ++before) {
+            while (runs.next(passed)) {
+            }
+            runs.left_ = header.pixels();
+        }
+        runs.more_follow_ = plane + 1 < header.level_sets;
+    }
+    return runs;
 }
 
 PictureRuns PictureRuns::of_preview(const Preview& preview, const ByteSource& source) {
     return {{source, preview.data_offset, preview.data_bytes, Cipher()},
-            rle15,
+            preview_codecs[static_cast<std::size_t>(preview.coding)],
             std::uint64_t{preview.width} * preview.height};
 }
 
@@ -114,7 +161,7 @@ bool PictureRuns::fail(std::string problem) {
 bool PictureRuns::next(Run& run) {
     while (problem_.empty()) {
         if (left_ == 0) {
-            return window_.at_end()
+            return more_follow_ || window_.at_end()
                        ? false
                        : fail(fmt::format("The picture is whole at byte {} of its data, which goes on.",
                                           window_.taken()));

@@ -18,9 +18,9 @@ struct Run {
 /// height.
 class PictureRuns {
   public:
-    /// One picture of layer `n`: `layer` is what SlicedFile::layer gave for it.
+    /// Picture `plane` of layer `n`: `layer` is what SlicedFile::layer gave for them.
     static PictureRuns of_layer(const SlicedFile& file, const ByteSource& source, std::uint32_t n,
-                                const Layer& layer);
+                                const Layer& layer, std::uint32_t plane = 0);
     static PictureRuns of_preview(const Preview& preview, const ByteSource& source);
 
     /// The next run, of one pixel or more. False when the picture is whole, or wrong: then problem() tells.
@@ -41,6 +41,7 @@ class PictureRuns {
     Codec codec_;
     std::uint64_t pixels_;
     std::uint64_t left_;
+    bool more_follow_ = false;  ///< the data of this picture does not end with it
     std::string problem_;
 };
 

@@ -11,8 +11,8 @@ constexpr std::uint32_t magic = 0x12FD'0019;
 constexpr std::uint32_t header_bytes = 0x70;
 constexpr std::uint32_t extension_bytes = 60;
 constexpr std::uint32_t record_bytes = 36;
-constexpr std::uint32_t width = 32;
-constexpr std::uint32_t height = 16;
+constexpr std::uint32_t smallest_side = 16;
+constexpr std::uint32_t biggest_side = 4096;
 constexpr std::uint32_t margin = 4;         ///< dark rows and columns around the bar
 constexpr std::uint32_t longest_run = 125;  ///< as slicers write it
 constexpr std::uint32_t full_light = 255;
@@ -26,23 +26,23 @@ void put(std::string& bytes, std::size_t at, float value) {
     put(bytes, at, std::bit_cast<std::uint32_t>(value));
 }
 
-bool lit(std::uint32_t pixel) {
-    const std::uint32_t x = pixel % width;
-    const std::uint32_t y = pixel / width;
-    return x >= margin && x < width - margin && y >= margin && y < height - margin;
+void put_runs(std::string& out, bool lit, std::uint32_t pixels) {
+    for (; pixels > 0; pixels -= std::min(pixels, longest_run)) {
+        out += static_cast<char>((lit ? 0x80U : 0U) | std::min(pixels, longest_run));
+    }
 }
 
-/// Runs of a byte each: bit 7 the pixel, the others how many.
-std::string picture() {
+/// Runs of a byte each: bit 7 the pixel, the others how many. Dark to the bar's first row, and between its
+/// rows.
+std::string picture(std::uint32_t width, std::uint32_t height) {
     std::string out;
-    for (std::uint32_t begin = 0; begin < width * height;) {
-        std::uint32_t end = begin + 1;
-        while (end < width * height && end - begin < longest_run && lit(end) == lit(begin)) {
-            ++end;
-        }
-        out += static_cast<char>((lit(begin) ? 0x80U : 0U) | (end - begin));
-        begin = end;
+    std::uint32_t dark = width * margin + margin;
+    for (std::uint32_t row = 2 * margin; row < height; ++row) {
+        put_runs(out, false, dark);
+        put_runs(out, true, width - 2 * margin);
+        dark = 2 * margin;
     }
+    put_runs(out, false, width * margin + margin);
     return out;
 }
 
@@ -53,7 +53,7 @@ void put_header(std::string& file, const Sample& wishes, std::uint32_t layers, s
     put(file, 0x1C, wishes.layer_height_mm * static_cast<float>(layers));
     put(file, 0x20, wishes.layer_height_mm);
     put(file, 0x24, wishes.exposure_s), put(file, 0x28, wishes.exposure_s), put(file, 0x2C, 1.0F);
-    put(file, 0x34, width), put(file, 0x38, height);
+    put(file, 0x34, wishes.width), put(file, 0x38, wishes.height);
     put(file, 0x40, table), put(file, 0x44, layers);
     put(file, 0x50, 1U);
     put(file, 0x54, header_bytes), put(file, 0x58, extension_bytes);
@@ -68,10 +68,13 @@ void put_header(std::string& file, const Sample& wishes, std::uint32_t layers, s
 
 }  // namespace
 
-std::string make_sample(const Sample& wishes) {
+std::string make_sample(const Sample& asked) {
+    Sample wishes = asked;
+    wishes.width = std::clamp(asked.width, smallest_side, biggest_side);
+    wishes.height = std::clamp(asked.height, smallest_side, biggest_side);
     const std::uint32_t layers = std::clamp(wishes.layers, 1U, Sample::most_layers);
     constexpr std::uint32_t table = header_bytes + extension_bytes;
-    const std::string light = picture();
+    const std::string light = picture(wishes.width, wishes.height);
     const auto light_bytes = static_cast<std::uint32_t>(light.size());
     const std::uint32_t pictures = table + layers * record_bytes;
     std::string file(pictures, '\0');

@@ -13,10 +13,12 @@ struct Sample {
     float layer_height_mm = 0.05F;
     float lift_mm = 5;
     float lift_mm_min = 180;
+    std::uint32_t width = 32;  ///< pixels of the LCD, 16 to 4096
+    std::uint32_t height = 16;
 };
 
-/// A small file that can be printed, for who has none at hand: .cbddlp, version 2, a bar of light on a tiny
-/// LCD. Some 60 bytes a layer; the same for the same wishes.
+/// A small file that can be printed, for who has none at hand: .cbddlp, version 2, a bar of light on a
+/// tiny LCD, or on one of the wished size. Of the tiny one some 60 bytes a layer; the same for the same wishes.
 std::string make_sample(const Sample& wishes);
 
 }  // namespace fauxboard::sliced

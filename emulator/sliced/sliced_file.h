@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "emulator/sliced/byte_source.h"
 #include "emulator/sliced/outcome.h"
@@ -12,7 +13,7 @@
 namespace fauxboard::sliced {
 
 /// .photon files are cbddlp under another name.
-enum class Format : std::uint8_t { cbddlp, ctb };
+enum class Format : std::uint8_t { cbddlp, ctb, pws, photons };
 std::string_view to_string(Format format);
 
 /// How the platform frees itself from the film and comes back.
@@ -24,18 +25,23 @@ struct Lift {
     bool operator==(const Lift&) const = default;
 };
 
-/// A picture for the board's screen: 16 bits a pixel, run-length coded.
+/// How a preview stands in the file: runs of 15 bits of colour, or words of 16 bits, in the one or the other
+/// order of bytes.
+enum class PreviewCoding : std::uint8_t { runs, words, big_words };
+
+/// A picture for the board's screen.
 struct Preview {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
     std::uint32_t data_offset = 0;
     std::uint32_t data_bytes = 0;
+    PreviewCoding coding = PreviewCoding::runs;
 };
 
 /// What the file says of itself, checked. Lengths in mm, times in s.
 struct Header {
     Format format = Format::cbddlp;
-    std::uint32_t version = 0;  ///< 1 to 3
+    std::uint32_t version = 0;
     std::array<float, 3> bed_mm{};
     float model_height_mm = 0;
     float layer_height_mm = 0;
@@ -49,9 +55,14 @@ struct Header {
     std::uint32_t layers = 0;       ///< at least 1
     std::uint32_t print_time_s = 0;
     bool mirrored = false;
-    std::uint32_t level_sets = 1;  ///< pictures per layer; more than one only in cbddlp, for anti-aliasing
-    std::uint16_t pwm = 0;         ///< 255 is full light
-    std::uint16_t bottom_pwm = 0;
+    std::uint32_t level_sets = 1;  ///< pictures per layer; more than one for anti-aliasing, in cbddlp and pws
+    /// The pictures of a layer follow one another in one piece of data, and only reading one tells where the
+    /// next begins (pws).
+    bool sets_in_one = false;
+    /// Layers have times and lifts of their own, and they rule.
+    bool individual = true;
+    std::uint16_t pwm = 255;  ///< 255 is full light
+    std::uint16_t bottom_pwm = 255;
     std::uint32_t key = 0;  ///< of the cipher over the pictures; 0 when there is none
 
     // From the first extension; none in files of version 1.
@@ -88,14 +99,22 @@ struct Layer {
     std::uint64_t end() const { return std::uint64_t{data_offset} + data_bytes; }
 };
 
-/// A sliced file of a resin printer: .cbddlp, .photon, .ctb, versions 1 to 3. Keeps the header and nothing
-/// else: each layer is read when it is asked for, from the source given then. A plain value; holds no file
-/// open.
+/// Where every `stride`-th layer of a file without a table begins; empty where there is a table.
+struct LayerIndex {
+    static constexpr std::size_t most = 1024;
+    std::uint32_t stride = 1;
+    std::vector<std::uint64_t> offsets;
+};
+
+struct FormatReader;
+
+/// A sliced file of a resin printer: .cbddlp and .photon (versions 1 to 3), .ctb (1 to 5), .pws, .photons.
+/// Keeps the header and, where the file has no table of layers, some of their places: each layer is read
+/// when it is asked for, from the source given then. A plain value; holds no file open.
 class SlicedFile {
   public:
-    static constexpr std::uint32_t header_bytes = 0x70;
-    static constexpr std::uint32_t record_bytes = 36;
-    static constexpr std::uint32_t max_side = 32768;  ///< pixels; the biggest LCD has 15120 x 6230
+    static constexpr std::uint32_t record_bytes = 36;  ///< of a layer in the table of .cbddlp and .ctb
+    static constexpr std::uint32_t max_side = 32768;   ///< pixels; the biggest LCD has 15120 x 6230
     static constexpr std::uint32_t max_pixels = 1U << 27;
     static constexpr std::uint32_t max_level_sets = 16;  ///< pictures of a layer
     static constexpr std::uint32_t max_machine_name = 256;
@@ -116,9 +135,9 @@ class SlicedFile {
 
   private:
     SlicedFile() = default;
-    /// Checks where the picture stands and reads the block of `block` bytes before it.
-    std::string take_data(const ByteSource& source, std::uint32_t block, Layer& layer) const;
     Header header_;
+    LayerIndex index_;
+    const FormatReader* reader_ = nullptr;
 };
 
 }  // namespace fauxboard::sliced

@@ -136,12 +136,19 @@ std::uint64_t Child::wake_ups() const {
     return sum;
 }
 
-BoardChild::BoardChild(const std::string& program, const std::vector<std::string>& arguments) {
-    std::vector<std::string> all{"run", "--pty", "--quiet"};
-    all.insert(all.end(), arguments.begin(), arguments.end());
+double Child::resident_bytes() const {
+    std::ifstream statm("/proc/" + std::to_string(pid_) + "/statm");
+    double size = 0;
+    double resident = 0;
+    double shared = 0;
+    statm >> size >> resident >> shared;
+    return (resident - shared) * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+nlohmann::json Child::start(const std::string& program, const std::vector<std::string>& arguments) {
     std::array<int, 2> ends{};
     checked(pipe2(ends.data(), O_CLOEXEC), "pipe");
-    pid_ = spawn(program, all, ends[1]);
+    pid_ = spawn(program, arguments, ends[1]);
     close(ends[1]);
     const std::string line = read_line(ends[0]);
     close(ends[0]);
@@ -150,8 +157,26 @@ BoardChild::BoardChild(const std::string& program, const std::vector<std::string
         stop();
         throw std::runtime_error(program + " did not get ready");
     }
-    path_ = nlohmann::json::parse(line.substr(word.size())).at("path").get<std::string>();
     pin(pid_, 1);
+    nlohmann::json ready = nlohmann::json::parse(line.substr(word.size()));
+    web_ = ready.value("web", "");
+    return ready;
+}
+
+BoardChild::BoardChild(const std::string& program, const std::vector<std::string>& arguments) {
+    std::vector<std::string> all{"run", "--pty", "--quiet"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    path_ = start(program, all).at("path").get<std::string>();
+}
+
+FleetChild::FleetChild(const std::string& program, const std::string& file,
+                       const std::vector<std::string>& arguments) {
+    std::vector<std::string> all{"fleet", file, "--quiet"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    for (const auto& board : start(program, all).at("boards")) {
+        paths_.push_back(board.at("path").get<std::string>());
+    }
+    path_ = paths_.front();
 }
 
 EchoChild::EchoChild(std::string_view reply) {
@@ -203,6 +228,25 @@ std::string Peer::line(std::string_view start) {
         }
         pending_.append(bytes.data(), static_cast<std::size_t>(n));
     }
+}
+
+bool Peer::line_within(std::string_view start, double seconds) {
+    const auto end = Clock::now() + std::chrono::duration<double>(seconds);
+    std::string text;
+    while (text.find(start) == std::string::npos) {
+        const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
+        pollfd wait{fd_, POLLIN, 0};
+        std::array<char, 4096> bytes;
+        if (left <= 0 || poll(&wait, 1, static_cast<int>(left)) <= 0) {
+            return false;
+        }
+        const ssize_t n = ::read(fd_, bytes.data(), bytes.size());
+        if (n <= 0) {
+            return false;
+        }
+        text.append(bytes.data(), static_cast<std::size_t>(n));
+    }
+    return true;
 }
 
 std::size_t Peer::count_lines(double seconds) {

@@ -38,6 +38,9 @@ std::vector<Benchmark> print_benchmarks();
 std::vector<Benchmark> pty_benchmarks();
 std::vector<Benchmark> tap_benchmarks();
 std::vector<Benchmark> resin_benchmarks();
+std::vector<Benchmark> dlp_benchmarks();
+std::vector<Benchmark> panel_benchmarks();
+std::vector<Benchmark> marlin_benchmarks();
 
 double median(std::vector<double> values);
 

@@ -53,7 +53,8 @@ nlohmann::ordered_json to_json(const Figure& figure) {
 int main(int argc, char** argv) {
     using namespace fauxboard::bench;
     std::vector<Benchmark> all = in_process_benchmarks();
-    for (const auto& more : {print_benchmarks(), pty_benchmarks(), tap_benchmarks(), resin_benchmarks()}) {
+    for (const auto& more : {print_benchmarks(), pty_benchmarks(), tap_benchmarks(), resin_benchmarks(),
+                             dlp_benchmarks(), panel_benchmarks(), marlin_benchmarks()}) {
         all.insert(all.end(), more.begin(), more.end());
     }
     Settings settings;

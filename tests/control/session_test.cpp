@@ -43,7 +43,7 @@ TEST_CASE("what is no request is answered with an error that says what to do, an
         {R"({"op": "set", "fields": []})", "wrong-type", "an object"},
         {R"({"op": "get", "fields": ""})", "unknown-field", "describe"},
         {R"({"op": "get", "fields": "heaters."})", "unknown-field", "describe"},
-        {R"({"op": "subscribe", "topic": "sate"})", "bad-request", "expected state"},
+        {R"({"op": "subscribe", "topic": "sate"})", "bad-request", "expected one of state"},
         {R"({"op": "subscribe", "topic": "link", "every": 1})", "bad-request", "state only"},
         {R"({"op": "subscribe", "topic": "state", "every": "1us"})", "out-of-range", "10ms to 3600s"},
     };

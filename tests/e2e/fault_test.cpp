@@ -100,7 +100,9 @@ TEST_CASE("a wrong fault is a sentence, with exit code 3, for run and for tap") 
         {"slow:rate=9", "rate: found \"9\"; expected a rate from"},
         {"delay:time=200", "expected a time from 0s to 60s with its unit, such as \"200ms\""},
         {"drop:at=1s,every=2", "expected only one of them"},
-        {"garble:probability=2", "expected a number from 0 to 1"}};
+        {"garble:probability=2", "expected a number from 0 to 1"},
+        {"drop:line=usbb", "did you mean \"usb\"?"},
+        {"drop:line=usb", "there is no USB side here"}};
     for (const auto& [spec, sentence] : wrong) {
         for (const Args& args : {Args{"run", "--fault", spec}, Args{"tap", "pty", "pty", "--fault", spec}}) {
             const std::string text = spec;
@@ -255,6 +257,52 @@ TEST_CASE("a disconnection takes the pty away and brings it back under its name;
     CHECK(program.stop() == 0);
     CHECK(contains(program.errors(), ", acted once on 2 lines."));
     CHECK_FALSE(std::filesystem::exists(std::filesystem::symlink_status(name)));
+}
+
+TEST_CASE("the USB side has faults of its own, and the main line none of them") {
+    const TemporaryFolder folder;
+    Program program({"run", "--no-pacing", "-q", "--host-pty", "--control=" + folder.file("ctl"), "--fault",
+                     "garble:to_board,every=2,line=usb", "--fault", "drop:to_board,count=1"});
+    const auto ready = program.ready();
+    Peer screen(ready["path"]);
+    Peer host(ready["host"]["path"]);
+    host.say("N0 M110 N0*125\nN1 M105*38\n");
+    CHECK(host.lines().find("ok") == "ok");
+    CHECK(contains(host.lines().find("Error:"), "Error:"));
+    screen.say(request(111));
+    CHECK(contains(screen.ask("M104 S112", answer(112)), "L2 "));
+    const Result list = run({"ctl", folder.file("ctl"), "--json", "fault", "list"});
+    CHECK(contains(list.out, "\"line\":\"usb\""));
+    CHECK(run({"ctl", folder.file("ctl"), "fault", "remove", "1"}).code == 0);
+    CHECK(run({"ctl", folder.file("ctl"), "fault", "add", "silence:line=usb,from=0s,for=1ms"}).code == 0);
+    CHECK(run({"ctl", folder.file("ctl"), "fault", "clear"}).code == 0);
+    host.say("N0 M110 N0*125\nN1 M105*38\n");
+    CHECK(contains(host.lines().find("ok T:"), "ok T:"));
+    CHECK(program.stop() == 0);
+    CHECK_FALSE(contains(program.errors(), "Fault "));
+}
+
+TEST_CASE("a disconnection of the USB side takes that pty away and brings it back; the main line stays") {
+    const TemporaryFolder folder;
+    const std::string name = folder.file("usb");
+    Program program({"run", "--no-pacing", "--json", "--host-pty=" + name, "--fault",
+                     "disconnect:to_board,after=1,count=1,for=50ms,line=usb"});
+    const auto ready = program.ready();
+    Peer screen(ready["path"]);
+    {
+        Peer host(name);
+        host.say("M105\n");
+        CHECK(contains(host.lines().find("ok T:"), "ok T:"));
+        host.say("M105\n");
+        CHECK(host.lines().find("(end)") == "(end)");
+    }
+    CHECK(contains(program.out().find("the line is connected again"), name));
+    Peer host(name);
+    host.say("M105\n");
+    CHECK(contains(host.lines().find("ok T:"), "ok T:"));
+    CHECK(contains(screen.ask("M104 S113", answer(113)), "L2 "));
+    CHECK(program.stop() == 0);
+    CHECK(contains(program.errors(), "line=usb"));
 }
 
 TEST_CASE("tap: the line between a board and a screen misbehaves, both ways, and recovers") {

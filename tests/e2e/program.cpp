@@ -23,9 +23,12 @@ bool wait_for(int fd, short events) {
 /// In the child: takes the descriptors over and becomes the program.
 [[noreturn]] void become(const Args& args, Program::Stdout out, int out_fd, int errors_fd) {
     std::signal(SIGPIPE, SIG_DFL);
+    std::signal(SIGXFSZ, SIG_DFL);
     ::dup2(errors_fd, 2);
     if (out == Program::Stdout::closed) {
         ::close(1);
+    } else if (out == Program::Stdout::full) {
+        ::dup2(::open("/dev/full", O_WRONLY), 1);
     } else {
         ::dup2(out_fd, 1);
     }

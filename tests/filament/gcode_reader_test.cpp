@@ -146,3 +146,44 @@ TEST_CASE("reader: half a gigabyte starts at once and is read once, piece by pie
     CHECK(reader.next(line) == Result::end);
     CHECK(disk.bytes_read <= 2 * GcodeReader::piece_bytes);
 }
+
+namespace {
+
+/// A file without a single line end, as large as they come, that counts what is read of it.
+struct EndlessLine final : Volume {
+    static constexpr std::uint64_t bytes = 50'000'000'000;
+    mutable std::uint64_t read_bytes = 0;
+    bool list(std::string_view, std::vector<fauxboard::machine::CardEntry>&) const override { return true; }
+    Kind look(std::string_view, std::uint64_t& size) const override {
+        size = bytes;
+        return Kind::file;
+    }
+    std::optional<std::size_t> read(std::string_view, std::uint64_t offset,
+                                    std::span<char> out) const override {
+        const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(out.size(), bytes - offset));
+        std::fill_n(out.begin(), size, 'x');
+        read_bytes += size;
+        return size;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("reader: what a call reads is bounded, however long a line is; it gets to its end all the same") {
+    const EndlessLine disk;
+    GcodeReader reader;
+    reader.open(disk, "x", EndlessLine::bytes - 10'000'000);
+    std::string_view line;
+    int calls = 0;
+    Result result = Result::line;
+    std::uint64_t place = 0;
+    while ((result = reader.next(line)) == Result::passing_over) {
+        CHECK(disk.read_bytes <= 2 * GcodeReader::piece_bytes);
+        CHECK(reader.byte() > place);
+        place = reader.byte();
+        disk.read_bytes = 0;
+        ++calls;
+    }
+    CHECK(result == Result::end);
+    CHECK(calls > 100);
+}

@@ -13,7 +13,8 @@ namespace {
 struct Bench {
     ThermalConfig config;
     Thermal thermal{config, 1};
-    HeatingWait wait;
+    HeatingWaitConfig waiting;
+    HeatingWait wait{waiting};
     EventQueue events;
     SimTime now{0};
     std::vector<double> reports;

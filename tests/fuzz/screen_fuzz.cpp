@@ -1,7 +1,8 @@
 // A whole touch screen, fed arbitrary bytes at arbitrary times and touched anywhere.
 //
 // The input is a script: one digit, then one step a line. The digit adds up 1 (the A30's screen, else the
-// A30T's), 2 (run it again byte by byte: everything must be the same), 4 (a tour is under way). Steps:
+// A30T's), 2 (run it again byte by byte: everything must be the same), 4 (a tour is under way), 8 (a screen
+// that sends one command at a time; the digit behind 9 is ':'). Steps:
 //   s L3 PS:1   a line from the board, framed rightly
 //   r ~L1 X2|   bytes from the board as they are: ~ is LF, ` is CR, ^ is NUL, | is CR LF
 //   p Home all  a touch by path
@@ -39,7 +40,9 @@ class Run {
     /// Mode: a digit.
     Run(const std::array<unsigned, heads>& head, bool split)
         : split_(split),
-          screen_(shipped_screen((mode_of(head[0]) & 1U) != 0 ? "geeetech-a30" : "geeetech-a30t")) {
+          screen_(shipped_screen((mode_of(head[0]) & 8U) != 0   ? "btt-tft"
+                                 : (mode_of(head[0]) & 1U) != 0 ? "geeetech-a30"
+                                                                : "geeetech-a30t")) {
         if ((mode_of(head[0]) & 4U) != 0) {
             tour_.emplace(screen_);
         }
@@ -69,8 +72,7 @@ class Run {
 void Run::take() {
     const std::string_view output = screen_.output();
     require(output.size() <= output_bound, "output grows without bound");
-    require(output.empty() || output.ends_with("\r\n") || output.ends_with('\0'),
-            "output ends inside a line");
+    require(output.empty() || output.ends_with('\n') || output.ends_with('\0'), "output ends inside a line");
     transcript_.append(std::to_string(screen_.time().count())).append(" ").append(output);
     last_ = output;
     screen_.clear_output();

@@ -2,6 +2,7 @@
 // hand.
 
 #include "emulator/host/control_server.h"
+#include "emulator/host/live_target.h"
 
 #include <sys/socket.h>
 
@@ -26,9 +27,9 @@ struct Bench {
     explicit Bench(SimTime duration = machine::never)
         : board(load_profile_by_name("geeetech-a30t"), {}, {false, 1, &observers}),
           live(board, link, clock, &observers),
-          server({loop, board, live, clock, link, nullptr, [this] { quit = true; },
-                  [this](std::string_view text) { said += text; }}) {
-        observers.add(server);
+          target({loop, board, live, clock, link, nullptr, [this] { quit = true; }, 1, nullptr}),
+          server(loop, target.hub(), [this](std::string_view text) { said += text; }) {
+        observers.add(target);
         server.open(path);
         link.open(live);
         live.start(duration, [this] { ended = true; });
@@ -52,6 +53,7 @@ struct Bench {
     bool quit = false;
     bool ended = false;
     std::string said;
+    LiveTarget target;
     ControlServer server;
 };
 
@@ -120,6 +122,31 @@ TEST_CASE("several requests in one write, and one in many") {
         link::test::run_ready(b.loop);
     }
     CHECK(json::parse(client.line())["id"] == 4);
+}
+
+TEST_CASE("a client that floods is slowed down; the others and the line have their turn") {
+    Bench b;
+    Client flood(b);
+    Client other(b);
+    std::string requests;
+    for (int i = 0; i < 150; ++i) {
+        requests += "{\"op\": \"status\"}\n";
+    }
+    flood.say(requests);
+    link::test::run_ready(b.loop);
+    other.say("{\"id\": 7, \"op\": \"status\"}\n");
+    // So many turns of the loop, and so many times the line's own, are between what the flood asks.
+    for (int turn = 0; turn < 8; ++turn) {
+        link::test::run_ready(b.loop);
+    }
+    other.take();
+    CHECK(other.rest.find("\"id\":7") != std::string::npos);
+    flood.take();
+    CHECK(std::count(flood.rest.begin(), flood.rest.end(), '\n') < 12);
+    CHECK(b.answers());
+    for (int i = 0; i < 150; ++i) {
+        CHECK(json::parse(flood.line())["ok"] == true);
+    }
 }
 
 TEST_CASE("time jumps: everything due on the way is done at its moment, however far it is") {

@@ -40,20 +40,18 @@ std::string sample(std::uint64_t byte) {
 TEST_CASE_FIXTURE(Bench, "job place: what was kept last comes back, until it is dropped") {
     CHECK_FALSE(open().load());
     {
-        JobPlaceFile store = open();
         for (std::uint64_t byte = 1; byte <= 9; ++byte) {
-            store.keep(sample(byte));
+            open().keep(sample(byte));
             const auto back = open().load();
             REQUIRE(back);
             CHECK(*back == sample(byte));
         }
     }
     {
-        JobPlaceFile store = open();
-        CHECK(store.load() == sample(9));
-        store.keep(sample(10));
+        CHECK(open().load() == sample(9));
+        open().keep(sample(10));
         CHECK(open().load() == sample(10));
-        store.drop();
+        open().drop();
     }
     CHECK_FALSE(open().load());
 }
@@ -115,12 +113,21 @@ TEST_CASE_FIXTURE(Bench, "job place: any file gives a place or none, and the nex
         }
         bad.resize(random() % (bad.size() + 1));
         put(bad);
-        JobPlaceFile store = open();
-        const auto place = store.load();
-        if (place) {
-            REQUIRE((place == sample(1) || place == sample(2)));
+        const auto marked = [&](std::size_t slot) {
+            return bad.size() >= slot + 8 && bad.compare(slot, 8, good, slot, 8) == 0;
+        };
+        if (!bad.empty() && !marked(0) && !marked(JobPlaceFile::slot_bytes)) {
+            REQUIRE_THROWS_AS(open(), link::HostError);  // anybody's, as far as can be seen
+            continue;
         }
-        store.keep(sample(77));
+        {
+            JobPlaceFile store = open();
+            const auto place = store.load();
+            if (place) {
+                REQUIRE((place == sample(1) || place == sample(2)));
+            }
+            store.keep(sample(77));
+        }
         REQUIRE(open().load());
         REQUIRE(open().load() == sample(77));
     }
@@ -129,4 +136,33 @@ TEST_CASE_FIXTURE(Bench, "job place: any file gives a place or none, and the nex
 TEST_CASE_FIXTURE(Bench, "job place: a file that cannot be is an error with a reason") {
     CHECK_THROWS_AS(JobPlaceFile(folder.file("missing/eeprom.job"), {}), link::HostError);
     CHECK_THROWS_AS(JobPlaceFile("/dev/null", {}), link::HostError);
+}
+
+TEST_CASE("job place: a file that is somebody else's stays as it is, and is named") {
+    Bench bench;
+    const std::string foreign(362, 'f');
+    for (const std::string& text : {foreign, std::string("{}\n"), std::string(5000, '\0')}) {
+        bench.put(text);
+        CHECK_THROWS_WITH_AS(bench.open(), doctest::Contains(bench.file.c_str()), link::HostError);
+        CHECK(bench.bytes() == text);
+    }
+    bench.put("");
+    bench.open().keep(sample(1));  // an empty one is nobody's
+    bench.open().keep(sample(2));
+    CHECK(bench.open().load().has_value());
+}
+
+TEST_CASE("job place: a second board on the same file is told, and changes nothing") {
+    Bench bench;
+    {
+        JobPlaceFile first = bench.open();
+        first.keep(sample(7));
+        const std::string before = bench.bytes();
+        CHECK_THROWS_WITH_AS(bench.open(), doctest::Contains("is in use by a board that runs"),
+                             link::HostError);
+        CHECK(bench.bytes() == before);
+    }
+    CHECK(bench.open().load() == sample(7));
+    CHECK((std::filesystem::status(bench.file).permissions() & std::filesystem::perms::others_all) ==
+          std::filesystem::perms::none);
 }

@@ -1,3 +1,5 @@
+#include <sys/stat.h>
+
 #include <csignal>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -102,14 +104,18 @@ TEST_CASE("a reader that does not read loses lines, whole ones, and holds up nob
         log.on_sent(SimTime(i), board::Channel::main, "N-0 L1 X0.000 Y0.000 Z0.000 F0*13");
     CHECK(out.left_out() > 1000);
     const std::uint64_t left_out = out.left_out();
-    pipe.take();
+    std::string all = pipe.take();
     log.on_sent(1s, board::Channel::main, "L1");
-    std::istringstream text(pipe.take());
-    std::string line;
-    REQUIRE(std::getline(text, line));
-    CHECK(nlohmann::json::parse(line)["left_out"] == left_out);
-    REQUIRE(std::getline(text, line));
-    CHECK(nlohmann::json::parse(line)["line"] == "L1");
+    all += pipe.take();
+    std::istringstream text(all);
+    std::uint64_t told = 0;
+    nlohmann::json last;
+    for (std::string line; std::getline(text, line);) {
+        last = nlohmann::json::parse(line);
+        told += last.value("left_out", std::uint64_t{0});
+    }
+    CHECK(told == left_out);
+    CHECK(last["line"] == "L1");
 }
 
 TEST_CASE("a closed output is borne") {
@@ -171,6 +177,50 @@ TEST_CASE("a full disk ends the recording once, and nothing else") {
     CHECK(troubles.size() == 1);
     CHECK(recorder.lines() == 0);
     CHECK_THROWS_AS(Recorder("/missing/talk.jsonl", {}), link::HostError);
+}
+
+TEST_CASE("a recording into a pipe needs a reader, and waits for none") {
+    const link::test::TemporaryFolder folder;
+    const std::string file = folder.file("pipe");
+    REQUIRE(::mkfifo(file.c_str(), 0600) == 0);
+    CHECK_THROWS_WITH_AS(Recorder(file, {}), doctest::Contains("a pipe that nobody reads"), link::HostError);
+    const link::UniqueFd reader(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+    std::vector<std::string> troubles;
+    Recorder recorder(file, [&](SimTime, std::string_view text) { troubles.emplace_back(text); });
+    for (int i = 0; i < 3000; ++i)
+        recorder.on_sent(SimTime(i), board::Channel::main, "N-0 L1 X0.000 Y0.000 Z0.000 F0*13");
+    CHECK(troubles.empty());  // more than the pipe holds, less than may wait
+    std::string text = link::test::take(reader.get());
+    recorder.on_sent(4s, board::Channel::main, "L2");
+    text += link::test::take(reader.get());
+    std::istringstream lines(text.substr(0, text.rfind('\n') + 1));
+    CHECK(record::load_recording(lines, "pipe").size() > 1000);
+    for (int i = 0; i < 30'000; ++i)
+        recorder.on_sent(SimTime(i), board::Channel::main, "N-0 L1 X0.000 Y0.000 Z0.000 F0*13");
+    REQUIRE(troubles.size() == 1);
+    CHECK(contains(troubles[0], "who reads the pipe does not keep up"));
+}
+
+TEST_CASE("a password that the line sets is in no log and no recording") {
+    const link::test::TemporaryFolder folder;
+    const std::string file = folder.file("talk.jsonl");
+    const Pipe pipe;
+    TextOutput out(pipe.out.get());
+    LineLog log(out, Detail::verbose, 0);
+    JsonLog json(out);
+    Recorder recorder(file, {});
+    const std::vector<LiveObserver*> all{&log, &json, &recorder};
+    for (LiveObserver* each : all) {
+        each->on_received(1s, Channel::main, "M9003 \"home\",\"secret\"", Verdict::accepted);
+        each->on_datagram(2s, 1, true, "M9005 \"home\",\"secret\"\r\n");
+    }
+    const std::string text = pipe.take();
+    CHECK(contains(text, "M9003"));
+    CHECK_FALSE(contains(text, "secret"));
+    const auto lines = record::load_recording(file);
+    REQUIRE(lines.size() == 2);
+    CHECK(lines[0].bytes == "M9003 \"home\",\"***\"");
+    CHECK(lines[1].bytes == "M9005 \"home\",\"***\"\r\n");
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ TEST_CASE("durations with their units") {
     CHECK(parse_duration("10s") == 10s);
     CHECK(parse_duration("5min") == 5min);
     CHECK(parse_duration("24h") == 24h);
+    CHECK(parse_duration("30d") == 720h);
     CHECK(parse_duration("1.5h") == 90min);
     CHECK(parse_duration("7") == 7s);
     CHECK(parse_duration("250us") == 250us);

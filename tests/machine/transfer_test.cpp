@@ -299,5 +299,21 @@ TEST_CASE_FIXTURE(Bench, "storage: a file is written whole, or not at all; and r
     CHECK_FALSE(storage.write("a", "x"));
 }
 
+TEST_CASE("transfer: what the user has under the name of an unfinished file stays") {
+    Bench bench;
+    bench.disk.put("new.ctb.temp", "mine");
+    REQUIRE(bench.begin("new.ctb"));
+    REQUIRE(bench.piece(0, "content"));
+    CHECK(*bench.disk.content("new.ctb.temp") == "mine");
+    REQUIRE(bench.finish());
+    CHECK(*bench.disk.content("new.ctb") == "content");
+    CHECK(*bench.disk.content("new.ctb.temp") == "mine");
+    REQUIRE(bench.begin("new.ctb"));  // and when it is given up
+    REQUIRE(bench.transfer.close(bench.now, alice));
+    CHECK(*bench.disk.content("new.ctb.temp") == "mine");
+    CHECK(bench.storage.write("new.ctb", "by the board"));
+    CHECK(*bench.disk.content("new.ctb.temp") == "mine");
+}
+
 }  // namespace
 }  // namespace fauxboard::machine

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <string>
 
 #include "protocol/framing.h"
@@ -33,20 +34,28 @@ TEST_CASE("host line: number, command and checksum come apart, whatever is missi
         {"N12 M105", "M105", true, 12, false, false},
         {"G1 X1", "G1 X1", false, 0, false, false},
         {"  G28  ", "G28", false, 0, false, false},
-        {"G1 X1 ; to the right", "G1 X1", false, 0, false, false},
         {"M105*10", "M105", false, 0, true, false},
         {"M117 5*3=15", "M117 5*3=15", false, 0, false, false},
         {"N5 G1 X1*", "G1 X1", true, 5, true, false},
         {"N5 G1 X1*x", "G1 X1", true, 5, true, false},
         {"N5 G1 X1*9999999999", "G1 X1", true, 5, true, false},
         {"N-1 M110*12", "M110", true, -1, true, false},
-        {"N", "N", false, 0, false, false},
-        {"Nothing", "Nothing", false, 0, false, false},
+        {"N", "N", true, 0, false, false},
+        {"Nothing", "Nothing", true, 0, false, false},
         {"N99999999999999999999 G1", "G1", true, 2147483647, false, false},
-        {"n7 g1 x1", "g1 x1", true, 7, false, false},
+        {"n7 g1 x1", "n7 g1 x1", false, 0, false, false},
         {"", "", false, 0, false, false},
         {"*", "*", false, 0, false, false},
-        {"; only a remark", "", false, 0, false, false},
+        {"N1 M105*38", "M105", true, 1, true, true},
+        {"N2 M105 *5", "M105", true, 2, true, true},
+        {" N5 M105*34", "M105", true, 5, true, true},
+        {"N5 M105*034", "M105", true, 5, true, true},
+        {"N+5 M105*9", "M105", true, 5, true, true},
+        {"N 5 M105*2", "N 5 M105", true, 5, true, true},
+        {"N0 M110N70*106", "M110N70", true, 70, true, true},
+        {"N70 M110*20", "M110", true, 70, true, true},
+        {"M110 N3N4 M211*37", "M110 N3N4 M211", false, 0, true, true},
+        {"\tM105", "\tM105", false, 0, false, false},
     };
     for (const Row& row : rows) {
         CAPTURE(row.line);
@@ -59,23 +68,60 @@ TEST_CASE("host line: number, command and checksum come apart, whatever is missi
     }
 }
 
-TEST_CASE("host line: the order of Marlin's complaints") {
-    CHECK(judge_host_line(unframe_host_line(numbered(5, "G1")), 4) == HostLineFault::none);
-    CHECK(judge_host_line(unframe_host_line(numbered(5, "G1")), 5) == HostLineFault::wrong_number);
-    CHECK(judge_host_line(unframe_host_line("N5 G1*1"), 5) == HostLineFault::wrong_number);
-    CHECK(judge_host_line(unframe_host_line("N5 G1*1"), 4) == HostLineFault::wrong_checksum);
-    CHECK(judge_host_line(unframe_host_line("N5 G1"), 4) == HostLineFault::no_checksum);
-    CHECK(judge_host_line(unframe_host_line("G1*5"), 4) == HostLineFault::no_number);
-    CHECK(judge_host_line(unframe_host_line("G1"), 4) == HostLineFault::none);
-    CHECK(judge_host_line(unframe_host_line(numbered(70, "M110")), 4) == HostLineFault::none);
-    CHECK(judge_host_line(unframe_host_line("N70 M110*3"), 4) == HostLineFault::wrong_checksum);
+TEST_CASE("host line: what the line reader keeps") {
+    struct Row {
+        const char* bytes;
+        const char* kept;
+    };
+    const Row rows[] = {
+        {"  G28", "G28"},
+        {"G1 X1 ; to the right", "G1 X1 "},
+        {"; only a remark", ""},
+        {"M117 a\\;b;c", "M117 a;b"},
+        {"M117 a\\\\b", "M117 a\\b"},
+        {"M105\b4", "M104"},
+        {"\b\bM105", "M105"},
+        {"M117 x\\", "M117 x"},
+        {"", ""},
+    };
+    std::array<char, 512> room;
+    for (const Row& row : rows) {
+        CAPTURE(row.bytes);
+        CHECK(read_host_line(row.bytes, room, 95) == row.kept);
+    }
+    CHECK(read_host_line(std::string(600, 'B'), room, 95).size() == 95);
+    CHECK(read_host_line("\\" + std::string(600, 'B'), room, 95).size() == 95);
 }
 
-TEST_CASE("host line: M110 may carry the number behind it") {
-    CHECK(number_set(unframe_host_line("M110 N7")) == 7);
-    CHECK_FALSE(number_set(unframe_host_line("M110")));
-    CHECK_FALSE(number_set(unframe_host_line("M1101 N7")));
-    CHECK_FALSE(number_set(unframe_host_line("G1 N7")));
+TEST_CASE("host line: the order of Marlin's complaints") {
+    const HostLineRules old{.judges_unnumbered = true};
+    const HostLineRules young{.drops_repeated = true};
+    const auto judge = [&](const std::string& line, std::int64_t last, const HostLineRules& rules) {
+        return judge_host_line(unframe_host_line(line, rules), last, rules);
+    };
+    for (const HostLineRules& rules : {old, young}) {
+        CHECK(judge(numbered(5, "G1"), 4, rules) == HostLineFault::none);
+        CHECK(judge(numbered(5, "G1"), 7, rules) == HostLineFault::wrong_number);
+        CHECK(judge("N5 G1*1", 7, rules) == HostLineFault::wrong_number);
+        CHECK(judge("N5 G1*1", 4, rules) == HostLineFault::wrong_checksum);
+        CHECK(judge("N5 G1", 4, rules) == HostLineFault::no_checksum);
+        CHECK(judge("G1", 4, rules) == HostLineFault::none);
+        CHECK(judge(numbered(70, "M110"), 4, rules) == HostLineFault::none);
+        CHECK(judge("N70 M110*3", 4, rules) == HostLineFault::wrong_checksum);
+    }
+    CHECK(judge("G1*5", 4, old) == HostLineFault::no_number);
+    CHECK(judge("G1*5", 4, young) == HostLineFault::none);
+    for (const std::int64_t last : {5, 6}) {
+        CHECK(judge(numbered(5, "G1"), last, old) == HostLineFault::wrong_number);
+        CHECK(judge(numbered(5, "G1"), last, young) == HostLineFault::repeated);
+    }
+}
+
+TEST_CASE("host line: a command ends at its checksum, or at its first star") {
+    CHECK(unframe_host_line("M117 a*b").body == "M117 a*b");
+    CHECK(unframe_host_line("M117 a*b", {.first_star_ends = true}).body == "M117 a");
+    CHECK(unframe_host_line(numbered(1, "M117 a*b")).body == "M117 a*b");
+    CHECK(unframe_host_line(numbered(1, "M117 a *b"), {.first_star_ends = true}).body == "M117 a");
 }
 
 TEST_CASE("host line: any single byte changed on the way is noticed") {
@@ -86,7 +132,7 @@ TEST_CASE("host line: any single byte changed on the way is noticed") {
             bad[i] = static_cast<char>(static_cast<unsigned char>(bad[i]) ^ (1U << bit));
             CAPTURE(bad);
             const HostLine line = unframe_host_line(bad);
-            const bool noticed = judge_host_line(line, 1233) != HostLineFault::none;
+            const bool noticed = judge_host_line(line, 1233, {}) != HostLineFault::none;
             // A damaged N leaves a line without number, whose command begins with no letter of a code.
             CHECK((noticed || (!line.numbered && line.body[0] != 'G' && line.body[0] != 'M')));
         }

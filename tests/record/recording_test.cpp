@@ -132,3 +132,30 @@ TEST_CASE("recording: lines take their time on the wire, one after the other") {
     CHECK(wire.send(SimTime{2000}, 36) == SimTime{1000 + 7118 + 3125});  // waits for the first
     CHECK(wire.send(SimTime{50'000}, 36) == SimTime{53'125});
 }
+
+namespace fauxboard::record {
+namespace {
+
+TEST_CASE("an ordered recording: any order within the window, a sentence beyond it") {
+    const auto entry = [](double t) {
+        return recording_line(machine::from_seconds(t), "screen", "line", std::to_string(t));
+    };
+    std::istringstream few(entry(3) + entry(1) + entry(2));
+    OrderedRecording ordered(RecordingReader(few, "few"));
+    for (const double t : {1.0, 2.0, 3.0}) {
+        CHECK(ordered.next()->t == machine::from_seconds(t));
+    }
+    CHECK_FALSE(ordered.next());
+    std::string text;
+    for (std::size_t i = 0; i <= OrderedRecording::window; ++i) {
+        text += entry(10 + static_cast<double>(i));
+    }
+    std::istringstream many(text + entry(5));
+    OrderedRecording late(RecordingReader(many, "many"));
+    CHECK(late.next()->t == machine::from_seconds(10));
+    CHECK_NOTHROW(late.next());
+    CHECK_THROWS_WITH_AS(late.next(), doctest::Contains("its time lies before"), RecordingError);
+}
+
+}  // namespace
+}  // namespace fauxboard::record

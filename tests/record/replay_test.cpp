@@ -128,3 +128,26 @@ TEST_CASE("replay: lines never overlap on the wire") {
         CHECK(result.lines[i].t - result.lines[i - 1].t >= SimTime{bits * 1'000'000 / 115200 - 1});
     }
 }
+
+TEST_CASE("replay: a recording that jumps by decades is refused by a sentence") {
+    CHECK_THROWS_WITH_AS(run({screen(1, "M105"), screen(1e9, "M105")}),
+                         doctest::Contains("nothing for 11574 days before"), ReplayError);
+}
+
+TEST_CASE("replay: piece by piece it says what it says of the whole, and holds nothing") {
+    const std::vector<RecordedLine> talk{screen(2, "M104 S200"), screen(3, "M9999"), screen(200, "M105")};
+    const ReplayResult whole = run(talk);
+    std::size_t lines = 0;
+    std::size_t notices = 0;
+    auto at = talk.begin();
+    ReplayTalk pieces;
+    pieces.next = [&] { return at == talk.end() ? std::nullopt : std::optional(*at++); };
+    pieces.on_line = [&](const RecordedLine& line) {
+        REQUIRE(lines < whole.lines.size());
+        CHECK(recording_line(line) == recording_line(whole.lines[lines++]));
+    };
+    pieces.on_notice = [&](const ReplayNotice&) { ++notices; };
+    replay(host::load_profile_by_name("geeetech-a30t"), pieces, {1, seconds(1)});
+    CHECK(lines == whole.lines.size());
+    CHECK(notices == whole.notices.size());
+}

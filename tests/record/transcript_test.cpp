@@ -97,11 +97,64 @@ TEST_CASE("time of day and line, as a shell loop records it") {
 }
 
 TEST_CASE("what is nearly a time of day is none") {
-    for (const char* line : {"24:00:00 - M27", "12:60:00 - M27", "12:00:61 - M27", "1:00:00 - M27",
-                             "12:00:00. - M27", "12:00:00.1234567890 - M27", "12:00:00.1- M27",
-                             "12:00:00 -M27", "+1:00:00 - M27", "12:00", "12:00:00"}) {
+    for (const char* line :
+         {"24:00:00 - M27", "12:60:00 - M27", "12:00:61 - M27", "1:00:00 - M27", "12:00:00. - M27",
+          "12:00:00.1234567890 - M27", "12:00:00.1- M27", "12:00:00 -M27", "12:00:00"}) {
         CAPTURE(line);
-        CHECK(read(line).at(0).form == Form::raw);
+        CHECK(read(line).at(0).form == Form::bad);
+    }
+    CHECK(read("+1:00:00 - M27").at(0).form == Form::raw);
+    CHECK(read("12:00").at(0).form == Form::raw);
+}
+
+TEST_CASE("OctoPrint's serial.log: who, when and what; its own words are notes") {
+    const auto entries = read(
+        "2024-01-02 23:59:59,900 - Changing monitor state from \"Offline\" to \"Connecting\"\n"
+        "2024-01-02 23:59:59,950 - Send: N0 M110 N0*125\n"
+        "2024-01-03 00:00:00,100 - Recv: ok T:92.1 /0.0\n"
+        "2024-01-03 00:00:00,050 - Recv: \n"
+        "Traceback (most recent call last):\n"
+        "2024-01-03 00:00:00,050 - Recv: wait\n");
+    REQUIRE(entries.size() == 5);
+    CHECK(entries[0].note);
+    CHECK(entries[0].bytes == "Changing monitor state from \"Offline\" to \"Connecting\"");
+    CHECK(entries[1].from == From::host);
+    CHECK(entries[1].bytes == "N0 M110 N0*125");
+    CHECK(entries[1].clock == "2024-01-02 23:59:59,950");
+    CHECK_FALSE(entries[1].guessed);
+    CHECK(entries[2].from == From::usb);
+    CHECK(*entries[2].t - *entries[1].t == SimTime{150'000});
+    CHECK(entries[3].note);
+    CHECK(entries[3].form == Form::raw);
+    CHECK(entries[4].t == entries[2].t);  // the computer's clock was set back
+}
+
+TEST_CASE("logs without times: OctoPrint's terminal, Printrun's printcore") {
+    const auto terminal = read("Send: M105\nRecv: ok T:20.0 /0.0\nRecv:\nConnected\n");
+    REQUIRE(terminal.size() == 3);
+    CHECK(terminal[0].from == From::host);
+    CHECK(terminal[0].bytes == "M105");
+    CHECK_FALSE(terminal[0].t.has_value());
+    CHECK(terminal[1].from == From::usb);
+    CHECK(terminal[2].note);
+    const auto printcore = read("INFO:root:SENT: N-1 M110*15\n[INFO] RECV: ok\nSENT: M27\n");
+    CHECK(all_bytes(printcore) == "N-1 M110*15|ok|M27|");
+    CHECK(printcore[1].from == From::usb);
+}
+
+TEST_CASE("logs of two days come in their order; a date that is none is no log") {
+    const auto entries = merge({"2024-01-03 08:00:00,000 - Send: M27\n2024-01-03 09:00:00,000 - Send: M105\n",
+                                "2024-01-02 23:00:00,000 - Send: M20\n"});
+    CHECK(all_bytes(entries) == "M20|M27|M105|");
+    CHECK(entries[1].t == SimTime{9 * 3'600'000'000LL});
+    for (const char* line :
+         {"2024-02-30 10:00:00,100 - Send: M27", "2024-01-02 24:00:00,100 - Send: M27",
+          "2024-01-02 10:00:00,100 Send: M27", "2024-01-02T10:00:00.1Z M27", "[10:00:00] >> M27",
+          "Jan  2 10:00:00 host M27", "02.01.2024 10:00 M27", "1704189600.100 M27"}) {
+        CAPTURE(line);
+        const auto bad = read(line);
+        CHECK(bad.at(0).form == Form::bad);
+        CHECK(bad.at(0).problem.find("in a form that decode does not know") != std::string::npos);
     }
 }
 

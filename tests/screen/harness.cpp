@@ -80,31 +80,65 @@ std::string Bench::press(std::string_view path) {
     return result.pressed ? fmt::format("{}", fmt::join(result.sent, " | ")) : result.sentence;
 }
 
-TourRun run_tour(const std::string& name, std::shared_ptr<const behaviour::Profile> profile, double limit_s) {
-    board::Board board(std::move(profile), {}, {});
-    screen::Screen screen(shipped_screen(name));
-    screen::Tour tour(screen);
-    SimTime now{0};
-    board.power_on(now);
-    screen.power_on(now);
-    const SimTime limit = machine::from_seconds(limit_s);
-    while (!tour.done() && now < limit) {
+namespace {
+
+/// Carries what each says to the other until `done` or the limit; `advance` is the screen's or its tour's.
+SimTime carry(board::Board& board, screen::Screen& screen, SimTime now, SimTime limit,
+              const std::function<SimTime(SimTime)>& advance, const std::function<bool()>& done) {
+    while (!done() && now < limit) {
         const SimTime board_next = board.advance(now);
         if (!board.output().empty()) {
             screen.receive(now, board.output());
             board.clear_output();
             continue;
         }
-        const SimTime tour_next = tour.advance(now);
+        const SimTime screen_next = advance(now);
         if (!screen.output().empty()) {
             board.receive(now, screen.output());
             screen.clear_output();
             continue;
         }
-        now = std::max(now + SimTime{1}, std::min(board_next, tour_next));
+        now = std::max(now + SimTime{1}, std::min({board_next, screen_next, limit}));
     }
+    return now;
+}
+
+}  // namespace
+
+TourRun run_tour(const std::string& name, std::shared_ptr<const behaviour::Profile> profile, double limit_s,
+                 const machine::Services& services) {
+    board::Board board(std::move(profile), services, {});
+    screen::Screen screen(shipped_screen(name));
+    screen::Tour tour(screen);
+    board.power_on(SimTime{0});
+    screen.power_on(SimTime{0});
+    const SimTime now = carry(
+        board, screen, SimTime{0}, machine::from_seconds(limit_s),
+        [&](SimTime at) { return tour.advance(at); }, [&] { return tour.done(); });
     return {tour.results(), screen.findings(), screen.counters(),
             tour.total(),   tour.done(),       machine::to_seconds(now)};
+}
+
+Together::Together(std::shared_ptr<const behaviour::Profile> profile,
+                   std::shared_ptr<const screen::ScreenProfile> screen_profile,
+                   const machine::Services& services, const std::vector<std::string>& presses) {
+    board::Board board(std::move(profile), services, {});
+    screen::Screen screen(std::move(screen_profile));
+    board.power_on(SimTime{0});
+    screen.power_on(SimTime{0});
+    SimTime now{0};
+    const auto pass = [&](double seconds) {
+        now = carry(
+            board, screen, now, now + machine::from_seconds(seconds),
+            [&](SimTime at) { return screen.advance(at); }, [] { return false; });
+    };
+    pass(8);
+    for (const std::string& path : presses) {
+        screen.press(path, now);
+        pass(3);
+    }
+    pass(40);
+    findings = screen.findings();
 }
 
 }  // namespace fauxboard::testing

@@ -56,6 +56,15 @@ struct TourRun {
     bool done = false;
     double seconds = 0;
 };
-TourRun run_tour(const std::string& screen, std::shared_ptr<const behaviour::Profile> board, double limit_s);
+TourRun run_tour(const std::string& screen, std::shared_ptr<const behaviour::Profile> board, double limit_s,
+                 const machine::Services& services = {});
+
+/// A board and a screen for a minute, in which the screen's buttons are pressed one after the other.
+struct Together {
+    Together(std::shared_ptr<const behaviour::Profile> board,
+             std::shared_ptr<const screen::ScreenProfile> screen, const machine::Services& services,
+             const std::vector<std::string>& presses);
+    std::vector<screen::Finding> findings;
+};
 
 }  // namespace fauxboard::testing

@@ -60,7 +60,7 @@ ValueTable table() {
 
 std::string fault(std::string_view source) {
     try {
-        const ValueTable values = table();
+        ValueTable values = table();
         const Template text(source, values, {});
         return {};
     } catch (const behaviour::ExpressionError& error) {
@@ -71,7 +71,7 @@ std::string fault(std::string_view source) {
 }  // namespace
 
 TEST_CASE("expressions and templates") {
-    const ValueTable values = table();
+    ValueTable values = table();
     std::vector<Shown> now(4);
     now[0].number = 7;
     now[1].number = -0.004;
@@ -138,7 +138,7 @@ TEST_CASE("wrong screen profiles give clear sentences") {
         {R"({"extends": "geeetech-a30t", "frames": {"L10": {"read": [{"key": "S", "as": "flaot"}]}}})",
          "/frames/L10/read/0/as: found the text \"flaot\"; expected one of u8, u16, i32, real, text, mark, "
          "list_start, "
-         "list_entry"},
+         "list_entry, list_append"},
         {R"({"extends": "geeetech-a30t", "frames": {"L10": {"read": [{"key": "S", "as": "real", "into": "job.file"}]}}})",
          "/frames/L10/read/0/into: \"job.file\" is a text; expected a number"},
         {R"({"extends": "geeetech-a30t", "frames": {"L300": {}}})",
@@ -158,7 +158,17 @@ TEST_CASE("wrong screen profiles give clear sentences") {
         {R"({"extends": "geeetech-a30t", "pages": {"Control/Home": {"buttons": {"Home X": {"send": "G28\nX0"}}}}})",
          "a control character in a line; line ends are added by the framing"},
         {R"({"extends": "geeetech-a30t", "pages": {"Control/Home": {"buttons": {"Home X": {"expect": {}}}}}})",
-         "/pages/Control~1Home/buttons/Home X/expect: expected either \"frame\" or \"line\""}};
+         "/pages/Control~1Home/buttons/Home X/expect: expected either \"frame\" or \"line\""},
+        {R"({"extends": "btt-tft", "frames": {"done": {"answers": "M5"}}})",
+         "/frames/done/answers: the screen does not wait for an answer to \"M5\"; see /talk/waits"},
+        {R"({"extends": "btt-tft", "frames": {"done": {"verdict": "stals", "why": "x"}}})",
+         "/frames/done/verdict: found the text \"stals\"; expected one of ok, ignored, part missed, "},
+        {R"({"extends": "btt-tft", "frames": {"done": {"verdict": "stalls"}}})",
+         "/frames/done/why: a verdict and why it is so stand together"},
+        {R"({"extends": "btt-tft", "values": {"line.word": {"is": "page"}}})",
+         "/values/line.word/is: a page is a text, a size of the line a number"},
+        {R"({"extends": "btt-tft", "talk": {"polls": [{"send": "M105"}]}})",
+         "/talk/polls/0: the key \"every_ms\" is missing"}};
     for (const Wrong& wrong : wrongs) {
         CAPTURE(wrong.json);
         const std::string sentence = refusal(wrong.json);
@@ -167,7 +177,7 @@ TEST_CASE("wrong screen profiles give clear sentences") {
 }
 
 TEST_CASE("the shipped screens load, alone and as a base") {
-    for (const char* name : {"smartto-screen", "geeetech-a30", "geeetech-a30t"}) {
+    for (const char* name : {"smartto-screen", "geeetech-a30", "geeetech-a30t", "btt-tft"}) {
         const auto profile = shipped_screen(name);
         CHECK(profile->name == name);
         CHECK(!profile->assumed.empty());
@@ -198,7 +208,7 @@ TEST_CASE("the shipped screens fit their schema, and a wrong one does not") {
         }
         return out;
     };
-    for (const char* name : {"smartto-screen", "geeetech-a30", "geeetech-a30t"}) {
+    for (const char* name : {"smartto-screen", "geeetech-a30", "geeetech-a30t", "btt-tft"}) {
         CHECK(complaints(read(std::string("screens/") + name + ".json")) == "");
     }
     CHECK(complaints(nlohmann::json::parse(R"({"name": "x", "pags": {}})")) != "");

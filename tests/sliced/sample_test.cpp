@@ -55,3 +55,24 @@ TEST_CASE("sample: layers are bounded, and small") {
     CHECK(make_sample({Sample::most_layers + 5, 2}).size() == make_sample({Sample::most_layers, 2}).size());
     CHECK(make_sample({Sample::most_layers, 2}).size() < 1'000'000);
 }
+
+TEST_CASE("sample: on an LCD of the wished size") {
+    Sample wishes;
+    wishes.layers = 2;
+    wishes.width = 1440;
+    wishes.height = 2560;
+    const std::string bytes = make_sample(wishes);
+    const fauxboard::testing::MemorySource source(bytes);
+    const auto file = SlicedFile::open(source);
+    REQUIRE(file);
+    CHECK(file->header().width == 1440);
+    auto rows = PictureRows::of_layer(*file, source, 1);
+    REQUIRE(rows);
+    std::vector<std::uint32_t> row(rows->width());
+    std::size_t lit = 0;
+    while (rows->next(row)) {
+        lit += static_cast<std::size_t>(std::count(row.begin(), row.end(), 255U));
+    }
+    CHECK(rows->problem() == "");
+    CHECK(lit == 1432U * 2552U);
+}

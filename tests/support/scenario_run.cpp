@@ -68,11 +68,8 @@ behaviour::SourceText changed_scenario(std::string_view name,
 
 ScenarioRun play(const behaviour::SourceText& source, const ScenarioSetup& setup) {
     const script::Head head = script::read_head(source);
-    script::Cast cast;
-    cast.profile = host::load_profile_by_name(head.profile.empty() ? "geeetech-a30t" : head.profile);
-    if (!head.screen.empty()) {
-        cast.screen = host::load_screen_by_name(head.screen);
-    }
+    const script::Cast cast =
+        host::make_cast(head.profile.empty() ? "geeetech-a30t" : head.profile, head.screen);
     const auto scenario = script::load_scenario(source, host::script_finder(), cast, setup.arguments);
 
     ScenarioRun out;

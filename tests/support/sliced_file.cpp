@@ -11,7 +11,6 @@ namespace fauxboard::testing {
 namespace {
 
 using Shape = SlicedFile::Shape;
-using Slicer = SlicedFile::Slicer;
 
 /// Writes as slicers do: what did not change is left out, E is absolute and starts anew each layer.
 class Writer {
@@ -49,11 +48,7 @@ class Writer {
     }
 
     void begin() {
-        if (wishes_.slicer == Slicer::cura) {
-            line(";FLAVOR:Marlin");
-            line(";TIME:%d", wishes_.moves / 10);
-            line(";LAYER_COUNT:%d", wishes_.layers);
-        }
+        text_ += slicer_head(wishes_.slicer, facts_);
         if (wishes_.heating) {
             line("M190 S50");
             line("M109 S200");
@@ -69,20 +64,7 @@ class Writer {
 
     void begin_layer() {
         const double z = 0.2 * (layer_ + 1);
-        switch (wishes_.slicer) {
-            case Slicer::cura:
-            case Slicer::ideamaker:
-                line(";LAYER:%d", layer_);
-                break;
-            case Slicer::prusa:
-                line(";LAYER_CHANGE");
-                line(";Z:%.1f", z);
-                line(";BEFORE_LAYER_CHANGE");
-                break;
-            case Slicer::simplify3d:
-                line("; layer %d, Z = %.3f", layer_ + 1, z);
-                break;
-        }
+        text_ += slicer_layer(wishes_.slicer, facts_, layer_, z);
         line("G92 E0");
         e_ = 0;
         line("G1 Z%.3f F1200", z);
@@ -178,12 +160,11 @@ class Writer {
         line("G1 Z5 F1200");
         line("G90");
         line("M84");
-        if (wishes_.slicer == Slicer::prusa) {
-            line("; estimated printing time (normal mode) = 1h 2m 3s");
-        }
+        text_ += slicer_foot(wishes_.slicer, facts_);
     }
 
     const SlicedFile& wishes_;
+    const SlicerFacts facts_{wishes_.layers, std::max(wishes_.moves / 600, 1), wishes_.whole};
     std::uint64_t state_;
     std::string text_;
     std::size_t moves_ = 0;

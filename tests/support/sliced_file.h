@@ -6,12 +6,13 @@
 #include <string>
 
 #include "emulator/machine/storage.h"
+#include "tests/support/slicer_text.h"
 
 namespace fauxboard::testing {
 
 /// How a made-up sliced file is to be.
 struct SlicedFile {
-    enum class Slicer : std::uint8_t { cura, prusa, simplify3d, ideamaker };
+    using Slicer = testing::Slicer;
     /// What its layers are made of.
     enum class Shape : std::uint8_t {
         infill,  ///< long straight lines to and fro
@@ -25,6 +26,7 @@ struct SlicedFile {
     std::uint64_t seed = 1;
     bool heating = false;  ///< M190 and M109 before, M104 S0 and M140 S0 after
     bool homing = false;   ///< G28 before
+    bool whole = false;    ///< with all that the slicer writes around the moves
 };
 
 /// The file's text: the same for the same wishes.

@@ -69,6 +69,46 @@ TEST_CASE("decode --screen: what that screen would have made of the board's line
     CHECK(none.out.find("there is no screen of this name; known: geeetech-a30") != std::string::npos);
 }
 
+TEST_CASE("decode: a serial.log of OctoPrint, in words and as a recording") {
+    const TemporaryFolder folder;
+    const std::string log = folder.put("serial.log",
+                                       "2024-01-02 10:00:00,050 - Connected to: Serial\n"
+                                       "2024-01-02 10:00:00,100 - Send: N0 M110 N0*125\n"
+                                       "2024-01-02 10:00:00,120 - Recv: ok\n"
+                                       "2024-01-02 10:00:00,200 - Send: N1 G90*17\n"
+                                       "2024-01-02 10:00:00,210 - Recv: ok T:92.1 /0.0 B:55.4 /0.0 @:0 B@:0\n"
+                                       "2024-01-02 10:00:00,300 - Send: N2 G90*17\n");
+    const Outcome text = run_program("decode " + log);
+    CHECK(text.code == 0);
+    const auto lines = lines_of(text.out);
+    REQUIRE(lines.size() == 6);
+    CHECK(lines[0].find("log             Connected to: Serial") != std::string::npos);
+    CHECK(lines[1].find("2024-01-02 10:00:00,100  host → board    N0 M110 N0*125") != std::string::npos);
+    CHECK(lines[4].find("board → host    ok T:92.1 /0.0 B:55.4") != std::string::npos);
+    CHECK(lines[3].starts_with("  "));
+    CHECK(lines[5].starts_with("! "));
+    CHECK(lines[5].find("checksum 17 is wrong") != std::string::npos);
+    const auto json = lines_of(run_program("decode --json " + log).out);
+    CHECK(json.at(0).find("\"note\":\"Connected to: Serial\"") != std::string::npos);
+    // And a recording again, notes and all.
+    const std::string again = folder.put("again.jsonl", run_program("decode --json " + log).out);
+    CHECK(lines_of(run_program("decode " + again).out).size() == 6);
+    CHECK(run_program("replay --profile geeetech-a30t " + again).code == 0);
+    CHECK(json.at(2).starts_with(R"({"t":0.07,"clock":"2024-01-02 10:00:00,120","from":"usb","line":"ok")"));
+}
+
+TEST_CASE("decode: a form that it does not know is said, line by line and in the end") {
+    const TemporaryFolder folder;
+    const Outcome other = run_program("decode " + folder.put("other.log", "[10:00:00] >> N0 M110 N0*125\n"));
+    CHECK(other.code == 3);
+    CHECK(other.out.find(":1: it begins with a date or a time, in a form that decode does not know") !=
+          std::string::npos);
+    CHECK(other.out.find("nothing here is of a form that decode knows") != std::string::npos);
+    CHECK(run_program("decode " + folder.put("words.txt", "Dear diary,\n")).code == 3);
+    CHECK(run_program("decode " + folder.put("own.txt", "M2999 S1\n")).code == 0);
+    CHECK(run_program("decode " + folder.put("empty.txt", "\n")).code == 0);
+}
+
 TEST_CASE("decode: an end that nobody reads any more ends it") {
     const Outcome outcome = run_shell("yes M27 | " FAUXBOARD_PROGRAM " decode | head -n 1");
     CHECK(lines_of(outcome.out).size() == 1);

@@ -16,8 +16,8 @@ std::vector<Row> joined(std::initializer_list<std::span<const Row>> tables) {
 }
 
 std::span<const behaviour::Field> all_fields() {
-    static const auto table =
-        joined<behaviour::Field>({machine_fields(), settings_fields(), device_fields(), fault_fields()});
+    static const auto table = joined<behaviour::Field>(
+        {machine_fields(), settings_fields(), device_fields(), fault_fields(), host_fields()});
     return table;
 }
 

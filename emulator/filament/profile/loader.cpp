@@ -232,6 +232,7 @@ ProcedureStep load_step(const Json& node, const std::string& pointer, Findings& 
             break;
         case Kind::probe:
             reader.choice("probe", probes, probe);
+            reader.integer("point", step.mesh_point, 0, 8);
             break;
         case Kind::wait:
             reader.number("wait_s", step.seconds, 0, 3600);
@@ -340,10 +341,18 @@ void load_config(ObjectReader& reader, Findings& findings, Config& config) {
     part("filament", load_filament, config.filament);
     part("job", load_job, config);
     part("board_fan", load_board_fan, config.board_fan);
-    if (const Json* node = reader.get("host")) {
-        ObjectReader host(*node, reader.pointer("host"), findings);
-        host.number("busy_s", config.host.busy_s, 0, 3600);
-        host.finish();
+    if (const Json* node = reader.get("heating")) {
+        ObjectReader heating(*node, reader.pointer("heating"), findings);
+        heating.number("report_s", config.heating.report_s, 0, 3600);
+        heating.number("residency_s", config.heating.residency_s, 0, 3600);
+        heating.number("hysteresis_c", config.heating.hysteresis_c, 0, 100);
+        heating.finish();
+    }
+    if (const Json* node = reader.get("extrusion")) {
+        ObjectReader extrusion(*node, reader.pointer("extrusion"), findings);
+        extrusion.boolean("guarded", config.extrusion.guarded);
+        extrusion.number("longest_mm", config.extrusion.longest_mm, 0, huge);
+        extrusion.finish();
     }
     reader.integer("board_fan_percent", config.board_fan.percent, 0, 100);
     reader.integer("part_fan_least_pwm", config.board_fan.least_pwm, 0, 255);

@@ -14,6 +14,7 @@ std::span<const behaviour::Field> machine_fields();
 std::span<const behaviour::Field> settings_fields();
 std::span<const behaviour::Field> device_fields();
 std::span<const behaviour::Field> fault_fields();
+std::span<const behaviour::Field> host_fields();
 
 std::span<const behaviour::ActionInfo> machine_actions();
 std::span<const behaviour::ActionInfo> device_actions();

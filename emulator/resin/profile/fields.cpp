@@ -107,6 +107,7 @@ std::vector<Field> all_rows(std::index_sequence<I...>) {
                              FAUXBOARD_PLACE(network_name)));
     rows.push_back(row.plain("resin.wifi_password", text, "", 0, 63, "password of the network (M9003, M9005)",
                              FAUXBOARD_PLACE(wifi_password)));
+    rows.back().secret = true;
     rows.push_back(network_name());
     rows.push_back(network_kind());
     for (std::size_t i = own.size(); i < rows.size(); ++i) {

@@ -1,0 +1,377 @@
+#include "emulator/dlp/mks_board.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace fauxboard::dlp {
+namespace {
+
+/// From power-on to the main menu: panel, its test image, stick.
+constexpr SimTime start_time = ms(2000);
+/// Until a settings file is read off the stick.
+constexpr SimTime read_time = ms(100);
+
+/// Steps of the start, and when each begins.
+struct StartStep {
+    SimTime begin;
+    std::string_view name;
+};
+constexpr std::array<StartStep, 6> start_steps{{{ms(0), "periphery"},
+                                                {ms(150), "clock"},
+                                                {ms(300), "panel_configuring"},
+                                                {ms(1200), "panel_to_sleep"},
+                                                {ms(1300), "panel_preparing"},
+                                                {ms(1850), "usb"}}};
+
+/// Which events the board sounds its message buzzer with.
+constexpr std::array loud{Event::print_not_opened, Event::print_homing_failed, Event::platform_homing_failed,
+                          Event::print_finished,   Event::print_cancelled,     Event::setup_failed};
+
+std::uint32_t add_seconds(std::uint32_t to, SimTime time) {
+    const std::uint64_t sum = to + static_cast<std::uint64_t>(std::max(time, SimTime{0}) / ms(1000));
+    return static_cast<std::uint32_t>(
+        std::min<std::uint64_t>(sum, std::numeric_limits<std::uint32_t>::max()));
+}
+
+}  // namespace
+
+MksBoard::MksBoard(const BoardConfig& config, Stick& stick, machine::EepromCells* cells, std::uint64_t seed,
+                   Listener& listener)
+    : settings(default_settings(config.firmware)),
+      quirks(config.quirks),
+      platform(config.platform),
+      panel(seed, config.fpga_version),
+      print({platform, lamp, panel, stick, settings, quirks, *this, config.firmware}),
+      uv_test(panel, lamp, *this),
+      files(stick, config.lists_ctb),
+      eeprom(cells),
+      config_(config),
+      stick_(stick),
+      listener_(listener) {
+    if (config.clock) {
+        calendar.set(*config.clock, SimTime{0});
+    }
+}
+
+void MksBoard::power_on(SimTime now) {
+    now_ = started_ = now;
+    eeprom.cut();
+    Kept kept = default_kept(config_.firmware);
+    for (const Block block : all_blocks) {
+        block_states_[static_cast<std::size_t>(block)] =
+            take_block(block, eeprom.bytes(), config_.firmware, kept);
+    }
+    settings = kept.settings;
+    counters = kept.counters;
+    for (const Block block : all_blocks) {
+        if (block_states_[static_cast<std::size_t>(block)] != BlockState::good) {
+            write_block(block, now);
+        }
+    }
+    platform.stop(now);
+    platform.power_on();
+    lamp.power_on();
+    motor.power_on();
+    print.power_on();
+    uv_test.power_on();
+    view_ = {};
+    sound_ = {};
+    watch = {};
+    task_ = SetupTask::none;
+    task_event_.reset();
+    report_.reset();
+    setup_opened_ = true;
+    setup_file_.clear();
+    dozing_ = false;
+    read_due_ = never;
+    start_panel(now);
+    files.home();
+    ready_due_ = now + start_time;
+}
+
+void MksBoard::start_panel(SimTime now) {
+    if (!panel.set_up(!quirks.reset_without_command, now)) {
+        raise(Event::panel_failed);
+        return;
+    }
+    uv_test.load(now);
+}
+
+void MksBoard::cut_power(SimTime now) {
+    eeprom.advance(now);
+    eeprom.cut();
+    panel.cut_power();
+    lamp.power_on();
+    platform.stop(now);
+}
+
+std::string_view MksBoard::start_step(SimTime now) const {
+    if (ready()) {
+        return {};
+    }
+    std::string_view name;
+    for (const StartStep& step : start_steps) {
+        if (now - started_ >= step.begin) {
+            name = step.name;
+        }
+    }
+    return name;
+}
+
+SimTime MksBoard::next_event() const {
+    return std::min({platform.next_event(), lamp.next_event(), print.next_event(), uv_test.next_event(),
+                     motor.next_event(), eeprom.next_event(), read_due_, ready_due_});
+}
+
+void MksBoard::advance(SimTime now) {
+    for (SimTime next = next_event(); next <= now; next = next_event()) {
+        now_ = next;
+        platform.advance(next);
+        lamp.advance(next);
+        eeprom.advance(next);
+        if (motor.advance(next)) {
+            print.forget_home();
+            raise(Event::motor_off);
+        }
+        print.advance(next);
+        uv_test.advance(next);
+        if (read_due_ <= next) {
+            read_due_ = never;
+            read_setup(next);
+        }
+        if (task_event_ && !eeprom.writing()) {
+            end_setup(*task_event_);
+        }
+        if (ready_due_ <= next) {
+            ready_due_ = never;
+            raise(Event::board_ready);
+        }
+        settle(next);
+    }
+    now_ = std::max(now_, now);
+    eeprom.advance(now);
+}
+
+void MksBoard::settle(SimTime now) {
+    now_ = std::max(now_, now);
+    print.advance(now);
+    motor.follow(print.state() != PrintState::idle, settings.motor, now);
+    count_work(now);
+    watch.look(lamp.on(), platform.busy(), print.active() && print.homed(), platform.position(now));
+}
+
+/// What a print that ended adds to the working times.
+void MksBoard::count_work(SimTime now) {
+    const auto worked = print.take_worked();
+    if (!worked) {
+        return;
+    }
+    counters.led_s = add_seconds(counters.led_s, worked->lit);
+    if (!quirks.display_not_counted) {
+        counters.display_s = add_seconds(counters.display_s, worked->lit);
+    }
+    counters.fan_s = add_seconds(counters.fan_s, worked->wall);
+    counters.print_s = add_seconds(counters.print_s, worked->wall);
+    write_block(Block::counters, now);
+}
+
+void MksBoard::watch_event(Event event) {
+    switch (event) {
+        case Event::print_exposed:
+            watch.exposed(lamp.last(), print.plan().exposure_s / print.antialiasing());
+            break;
+        case Event::print_displayed:
+            watch.wrong_pictures += print.active() && (panel.white() || !print.picture_arrived()) ? 1U : 0U;
+            break;
+        case Event::print_finished:
+        case Event::print_cancelled:
+            watch.lit_at_end += lamp.on() ? 1U : 0U;
+            break;
+        default:
+            break;
+    }
+}
+
+void MksBoard::raise(Event event) {
+    watch_event(event);
+    if (std::find(loud.begin(), loud.end(), event) != loud.end()) {
+        sound_for(settings.general.buzzer_msg_ms);
+    }
+    if (event == Event::files_changed || event == Event::files_deleted) {
+        previews.forget();
+        files.refresh();
+    }
+    listener_.raise(event);
+}
+
+void MksBoard::sound_for(std::uint32_t time_ms) {
+    if (settings.general.buzzer != 0 && time_ms != 0) {
+        sound_ = {now_ + ms(time_ms), ms(time_ms)};
+    }
+}
+
+void MksBoard::touch_sound(SimTime now) {
+    now_ = std::max(now_, now);
+    sound_for(settings.general.buzzer_touch_ms);
+}
+
+void MksBoard::write_block(Block block, SimTime now) {
+    eeprom.write(address_of(block), block_bytes(block, {settings, counters}, config_.firmware), now);
+}
+
+bool MksBoard::print_file(const std::string& path, SimTime now) {
+    if (dozing_ || !ready()) {
+        return false;
+    }
+    if (uv_test.light() || uv_test.display()) {
+        uv_test.leave(now);
+        uv_test.advance(uv_test.next_event() == never ? now : uv_test.next_event());
+    }
+    const bool started = print.start(path, now);
+    settle(now);
+    return started;
+}
+
+bool MksBoard::print_viewed(SimTime now) {
+    return !view_.path.empty() && print_file(view_.path, now);
+}
+
+bool MksBoard::view(std::string_view name) {
+    const ListedFile* const listed = files.find(name);
+    if (listed == nullptr || listed->kind != FileKind::print) {
+        return false;
+    }
+    view_ = {listed->entry.name, files.path_of(name), listed->entry.bytes, listed->entry.modified_s, {}, {}};
+    const auto source = stick_.open(view_.path);
+    if (!source) {
+        view_.problem = "There is no such file, or it cannot be read.";
+        return true;
+    }
+    auto file = PrintFile::open(*source);
+    if (file) {
+        view_.file = std::move(*file);
+    } else {
+        view_.problem = file.problem();
+    }
+    return true;
+}
+
+bool MksBoard::delete_viewed() {
+    if (view_.path.empty() || (print.active() && print.path() == view_.path)) {
+        raise(Event::files_not_deleted);
+        return false;
+    }
+    const bool done = stick_.remove(view_.path);
+    if (done) {
+        view_ = {};
+    }
+    raise(done ? Event::files_deleted : Event::files_not_deleted);
+    return done;
+}
+
+bool MksBoard::set_zero(SimTime now) {
+    if (!print.homed() || print.state() != PrintState::idle || task_ != SetupTask::none) {
+        return false;
+    }
+    settings.general.zero_pos_mm = static_cast<float>(platform.position(now));
+    write_block(Block::general, now);
+    task_ = SetupTask::saving;
+    task_event_ = Event::platform_zero_set;
+    return true;
+}
+
+bool MksBoard::load_setup(std::string_view name, SimTime now) {
+    if (task_ != SetupTask::none || print.active()) {
+        return false;
+    }
+    setup_path_ = files.path_of(name);
+    setup_file_ = "0:/" + setup_path_;
+    task_ = SetupTask::loading;
+    report_.reset();
+    setup_opened_ = true;
+    read_due_ = now + read_time;
+    return true;
+}
+
+void MksBoard::read_setup(SimTime now) {
+    const auto source = stick_.open(setup_path_);
+    setup_opened_ = source != nullptr;
+    if (!setup_opened_) {
+        return end_setup(Event::setup_failed);
+    }
+    std::uint64_t at = 0;
+    report_ = read_acfg(
+        [&](char* out, std::size_t room) {
+            const std::size_t got = source->read(at, std::span(out, room));
+            at += got;
+            return got;
+        },
+        settings, config_.firmware);
+    raise(Event::setup_changed);
+    if (report_->result != AcfgResult::ok) {
+        return end_setup(Event::setup_failed);
+    }
+    write_block(Block::motor, now);
+    write_block(Block::general, now);
+    task_event_ = Event::setup_loaded;
+}
+
+void MksBoard::end_setup(Event event) {
+    task_ = SetupTask::none;
+    task_event_.reset();
+    raise(event);
+}
+
+bool MksBoard::save_setup(SimTime now) {
+    if (task_ != SetupTask::none) {
+        return false;
+    }
+    task_ = SetupTask::saving;
+    task_event_ = Event::setup_saved;
+    write_block(Block::general, now);
+    return true;
+}
+
+bool MksBoard::set_language(int language, SimTime now) {
+    if (language < 0 || language > 1) {
+        return false;
+    }
+    settings.general.language = static_cast<std::uint8_t>(language);
+    write_block(Block::general, now);
+    raise(Event::setup_changed);
+    return true;
+}
+
+bool MksBoard::choose_image(unsigned image, SimTime now) {
+    return !print.active() && uv_test.choose(image, from_seconds(picture_load_s(config_.firmware)), now);
+}
+
+void MksBoard::doze(SimTime now) {
+    if (!print.active() && !dozing_) {
+        dozing_ = true;
+        uv_test.leave(now);
+        panel.power_off(now);
+    }
+}
+
+void MksBoard::wake(SimTime now) {
+    if (dozing_) {
+        dozing_ = false;
+        start_panel(now);
+        files.home();
+        raise(Event::files_changed);
+    }
+}
+
+void MksBoard::reset_counters(SimTime now) {
+    counters = {};
+    write_block(Block::counters, now);
+}
+
+void MksBoard::stick_changed() {
+    previews.forget();
+    files.home();
+    listener_.raise(Event::files_changed);
+}
+
+}  // namespace fauxboard::dlp

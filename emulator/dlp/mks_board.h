@@ -1,0 +1,135 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "emulator/dlp/acfg.h"
+#include "emulator/dlp/board_config.h"
+#include "emulator/dlp/calendar.h"
+#include "emulator/dlp/eeprom_chip.h"
+#include "emulator/dlp/file_list.h"
+#include "emulator/dlp/motor.h"
+#include "emulator/dlp/previews.h"
+#include "emulator/dlp/print.h"
+#include "emulator/dlp/uv_test.h"
+#include "emulator/dlp/watch.h"
+
+namespace fauxboard::dlp {
+
+/// What one is doing to the settings.
+enum class SetupTask : std::uint8_t { none, loading, saving };
+
+/// The whole board: its start, what its buttons ask for, and what goes on by itself. Knows neither pages nor
+/// boxes.
+class MksBoard final : private Listener {
+  public:
+    /// All outlive it; `cells` may be null.
+    MksBoard(const BoardConfig& config, Stick& stick, machine::EepromCells* cells, std::uint64_t seed,
+             Listener& listener);
+
+    /// Starts the board's program. What is physical stays as it is.
+    void power_on(SimTime now);
+    /// The supply goes: what was being written to the EEPROM stays undone, the panel forgets its pictures.
+    void cut_power(SimTime now);
+    void advance(SimTime now);
+    SimTime next_event() const;
+    /// Sees to what comes of an action.
+    void settle(SimTime now);
+
+    bool ready() const { return ready_due_ == never; }
+    bool dozing() const { return dozing_; }
+    /// Of the start: "", "periphery", "panel_configuring", ...
+    std::string_view start_step(SimTime now) const;
+
+    // What its buttons ask for. False: not now.
+    // ------------------------------------------------------------------------
+    bool print_viewed(SimTime now);
+    bool print_file(const std::string& path, SimTime now);
+    bool view(std::string_view name);
+    bool delete_viewed();
+    bool set_zero(SimTime now);
+    bool load_setup(std::string_view name, SimTime now);
+    bool save_setup(SimTime now);
+    bool set_language(int language, SimTime now);
+    bool choose_image(unsigned image, SimTime now);
+    void touch_sound(SimTime now);
+    void doze(SimTime now);
+    void wake(SimTime now);
+    void reset_counters(SimTime now);
+    /// A stick came, or went.
+    void stick_changed();
+
+    // ------------------------------------------------------------------------
+    struct View {
+        std::string name;
+        std::string path;
+        std::uint64_t bytes = 0;
+        std::int64_t modified_s = 0;
+        std::optional<PrintFile> file;
+        std::string problem;
+    };
+    const View& viewed() const { return view_; }
+    struct Sound {
+        SimTime until{0};
+        SimTime last{0};
+    };
+    const Sound& sound() const { return sound_; }
+    SetupTask setup_task() const { return task_; }
+    const std::string& setup_file() const { return setup_file_; }
+    /// Of the settings file loaded last; nothing before the first, and when it could not be opened.
+    const std::optional<AcfgReport>& setup_report() const { return report_; }
+    bool setup_opened() const { return setup_opened_; }
+    std::array<BlockState, 3> block_states() const { return block_states_; }
+
+    const BoardConfig& config() const { return config_; }
+    Stick& stick() { return stick_; }
+    const Stick& stick() const { return stick_; }
+
+    Settings settings;
+    WorkCounters counters;
+    Quirks quirks;
+    Platform platform;
+    Lamp lamp;
+    UvPanel panel;
+    Motor motor;
+    Print print;
+    UvTest uv_test;
+    FileList files;
+    Previews previews;
+    Calendar calendar;
+    Watch watch;
+    EepromChip eeprom;
+
+  private:
+    void raise(Event event) override;
+    void watch_event(Event event);
+    void note(const std::string& text) override { listener_.note(text); }
+    void write_block(Block block, SimTime now);
+    void sound_for(std::uint32_t time_ms);
+    void read_setup(SimTime now);
+    void end_setup(Event event);
+    void count_work(SimTime now);
+    void start_panel(SimTime now);
+
+    BoardConfig config_;
+    Stick& stick_;
+    Listener& listener_;
+    View view_;
+    Sound sound_;
+    std::array<BlockState, 3> block_states_{};
+    SetupTask task_ = SetupTask::none;
+    std::optional<Event> task_event_;  ///< raised when the EEPROM has it all
+    std::string setup_file_;
+    std::string setup_path_;
+    std::optional<AcfgReport> report_;
+    bool setup_opened_ = true;
+    bool dozing_ = false;
+    SimTime read_due_ = never;
+    SimTime ready_due_ = never;
+    SimTime started_{0};
+    SimTime now_{0};
+};
+
+}  // namespace fauxboard::dlp

@@ -1,0 +1,142 @@
+#include "emulator/host/drawings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "emulator/filament/printer.h"
+#include "emulator/machine/disk_source.h"
+#include "emulator/resin/printer.h"
+#include "emulator/sliced/picture_rows.h"
+
+namespace fauxboard::host {
+namespace {
+
+using control::Json;
+
+std::string base64(const std::string& bytes) {
+    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string out;
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        std::uint32_t three = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            three = three << 8U | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
+        }
+        for (std::size_t k = 0; k < 4; ++k) {
+            out += i + k <= bytes.size() ? digits[three >> (18 - 6 * k) & 63U] : '=';
+        }
+    }
+    return out;
+}
+
+/// A picture made small: each pixel is the brightest of those it stands for, so that nothing thin gets lost.
+struct Small {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    std::vector<std::uint8_t> greys;
+
+    std::string packed() const {
+        std::string out((greys.size() + 3) / 4, '\0');
+        for (std::size_t i = 0; i < greys.size(); ++i) {
+            const unsigned four = (greys[i] + 42U) / 85U;
+            out[i / 4] = static_cast<char>(static_cast<unsigned char>(out[i / 4]) | four << (i % 4 * 2));
+        }
+        return out;
+    }
+};
+
+std::optional<Small> read_picture(const resin::ResinJob::Place& place) {
+    const machine::DiskSource source(place.disk, place.path);
+    auto rows = sliced::PictureRows::of_layer(place.file, source, place.layer);
+    if (!rows || rows->width() == 0 || rows->height() == 0) {
+        return std::nullopt;
+    }
+    const std::uint32_t by = std::max(rows->width(), rows->height()) / Drawings::most_side + 1;
+    Small out{(rows->width() + by - 1) / by, (rows->height() + by - 1) / by, {}};
+    out.greys.resize(std::size_t{out.width} * out.height);
+    std::vector<std::uint32_t> row(rows->width());
+    for (std::uint32_t y = 0; rows->next(row); ++y) {
+        std::uint8_t* const line = &out.greys[std::size_t{y / by} * out.width];
+        for (std::uint32_t x = 0; x < row.size(); ++x) {
+            line[x / by] = std::max(line[x / by], static_cast<std::uint8_t>(std::min<std::uint32_t>(row[x], 255)));
+        }
+    }
+    return out;
+}
+
+double shown(double mm) {
+    return std::round(mm * 100) / 100;
+}
+
+}  // namespace
+
+Drawings::Drawings(board::Board& board) : board_(board) {
+    if (auto* const printer = machine::as<filament::Printer>(board_.machine())) {
+        printer->motion.on_travel([this](const filament::Travel& travel) { path_.add(travel); });
+    }
+}
+
+Drawings::~Drawings() {
+    if (auto* const printer = machine::as<filament::Printer>(board_.machine())) {
+        printer->motion.on_travel({});
+    }
+}
+
+Json Drawings::whole() {
+    Json out = way(true);
+    return out.is_null() ? picture(true) : out;
+}
+
+Json Drawings::news() {
+    Json out = way(false);
+    return out.is_null() ? picture(false) : out;
+}
+
+Json Drawings::way(bool whole) {
+    const auto* const printer = machine::as<filament::Printer>(std::as_const(board_).machine());
+    if (printer == nullptr) {
+        return nullptr;
+    }
+    const auto& volume = printer->config().motion.volume_mm;
+    const auto& head = printer->motion.executed();
+    Json layers = whole ? path_.whole() : path_.news();
+    Json place{shown(head[0]), shown(head[1])};
+    std::string now = place.dump();
+    if (!whole && layers.empty() && now == told_) {
+        return nullptr;
+    }
+    told_ = std::move(now);
+    return {{"way",
+             {{"more", !whole}, {"size", {volume[0], volume[1]}}, {"head", std::move(place)}, {"layers", std::move(layers)}}}};
+}
+
+Json Drawings::picture(bool whole) {
+    const auto* const printer = machine::as<resin::Printer>(std::as_const(board_).machine());
+    const auto place = printer != nullptr ? printer->print.place() : std::nullopt;
+    if (!place) {
+        return nullptr;
+    }
+    const bool lit = printer->print.exposing();
+    std::string now = fmt::format("{} {} {}", place->path, place->layer, lit);
+    if (!whole && now == told_) {
+        return nullptr;
+    }
+    const std::string layer = fmt::format("{} {} ", place->path, place->layer);
+    Json out{{"lit", lit},
+             {"words", fmt::format("Layer {} of {}, {}", place->layer + 1, place->file.header().layers,
+                                   lit ? "the LED shines" : "dark")}};
+    if (whole || !told_.starts_with(layer)) {
+        if (const auto small = read_picture(*place)) {
+            out["width"] = small->width;
+            out["height"] = small->height;
+            out["greys"] = base64(small->packed());
+        }
+    }
+    told_ = std::move(now);
+    return {{"picture", std::move(out)}};
+}
+
+}  // namespace fauxboard::host

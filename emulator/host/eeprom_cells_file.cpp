@@ -1,0 +1,82 @@
+#include "emulator/host/eeprom_cells_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+#include "emulator/link/host_error.h"
+
+namespace fauxboard::host {
+namespace {
+
+[[noreturn]] void refuse(const std::string& file, const std::string& why) {
+    throw link::HostError(fmt::format("The EEPROM {} cannot be used: {}.", file, why));
+}
+
+std::string last_error() {
+    return std::system_category().message(errno);
+}
+
+bool write_all(int fd, std::string_view bytes, off_t offset) {
+    while (!bytes.empty()) {
+        const ssize_t done = ::pwrite(fd, bytes.data(), bytes.size(), offset);
+        if (done < 0 && errno == EINTR) {
+            continue;
+        }
+        if (done <= 0) {
+            return false;
+        }
+        bytes.remove_prefix(static_cast<std::size_t>(done));
+        offset += done;
+    }
+    return true;
+}
+
+}  // namespace
+
+/// A fresh chip appears whole under its name, or not at all.
+void EepromCellsFile::make() const {
+    std::string name = file_ + ".XXXXXX";
+    const link::UniqueFd fd(::mkostemp(name.data(), O_CLOEXEC));
+    const std::string fresh(bytes_, '\xFF');
+    if (!fd || ::fchmod(fd.get(), 0644) != 0 || !write_all(fd.get(), fresh, 0) ||
+        ::rename(name.c_str(), file_.c_str()) != 0) {
+        const std::string why = last_error();
+        ::unlink(name.c_str());
+        refuse(file_, why);
+    }
+}
+
+EepromCellsFile::EepromCellsFile(std::string file, std::size_t bytes)
+    : file_(std::move(file)), bytes_(bytes) {
+    struct stat info {};
+    if (::stat(file_.c_str(), &info) != 0 && errno == ENOENT) {
+        make();
+    }
+    fd_ = link::UniqueFd(::open(file_.c_str(), O_RDWR | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
+    if (!fd_ || ::fstat(fd_.get(), &info) != 0) {
+        refuse(file_, last_error());
+    }
+    if (!S_ISREG(info.st_mode) || info.st_size != static_cast<off_t>(bytes_)) {
+        refuse(file_,
+               fmt::format("the chip has {} bytes, and this {}", bytes_,
+                           S_ISREG(info.st_mode) ? fmt::format("file {}", info.st_size) : "is no file"));
+    }
+}
+
+std::optional<std::string> EepromCellsFile::load() {
+    std::string bytes(bytes_, '\0');
+    const ssize_t got = ::pread(fd_.get(), bytes.data(), bytes.size(), 0);
+    return got == static_cast<ssize_t>(bytes.size()) ? std::optional(std::move(bytes)) : std::nullopt;
+}
+
+void EepromCellsFile::store(std::size_t address, std::string_view bytes) {
+    write_all(fd_.get(), bytes, static_cast<off_t>(address));
+}
+
+}  // namespace fauxboard::host

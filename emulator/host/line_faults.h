@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "emulator/fault/fault_control.h"
+
+namespace fauxboard::host {
+
+/// The faults of all lines of one board under one numbering: each goes to the line that it names.
+class LineFaults final : public fault::FaultControl {
+  public:
+    /// Both outlive this; `usb` may be null: this board has no USB side.
+    LineFaults(fault::FaultControl& main, fault::FaultControl* usb) : main_(main), usb_(usb) {}
+
+    /// Throws FaultSpecError, also when the board lacks that line.
+    fault::FaultId add(const fault::FaultSpec& spec) override;
+    /// Also to another line.
+    bool change(fault::FaultId id, const fault::FaultSpec& spec) override;
+    bool remove(fault::FaultId id) override;
+    void clear() override;
+    std::vector<fault::FaultStatus> list() const override;
+
+  private:
+    struct Entry {
+        fault::FaultId id;
+        fault::FaultControl* line;
+        fault::FaultId id_there;
+    };
+    fault::FaultControl& line_of(const fault::FaultSpec& spec);
+    std::vector<Entry>::iterator find(fault::FaultId id);
+
+    fault::FaultControl& main_;
+    fault::FaultControl* usb_;
+    std::vector<Entry> entries_;  ///< by id
+    fault::FaultId last_id_ = 0;
+};
+
+}  // namespace fauxboard::host

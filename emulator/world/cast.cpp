@@ -1,0 +1,148 @@
+#include "emulator/world/cast.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <string_view>
+
+#include "emulator/board/board.h"
+#include "protocol/command.h"
+#include "protocol/framing.h"
+
+namespace fauxboard::world {
+namespace {
+
+using behaviour::Channel;
+using machine::SimTime;
+
+constexpr std::uint32_t highest_code = 9999;
+constexpr SimTime settling{30'000'000};  ///< boot, and whatever comes by itself at first
+constexpr SimTime patience{2'000'000};
+
+/// Requests that change nothing and that boards answer. The first one that a line answers is its probe.
+constexpr std::array<std::string_view, 14> harmless{"M105",  "M4002", "M115", "M4000", "M27",
+                                                    "M114",  "M2133", "M119", "M31",   "M20",
+                                                    "M4001", "M4006", "M503", "M220"};
+
+/// What hosts send that no profile need know: the machine carries it out as in a file.
+constexpr auto usual = std::to_array<std::string_view>(
+    {"G0",   "G1",   "G2",   "G3",   "G4",   "G28",  "G90",  "G91",  "G92",  "M0",   "M17",
+     "M18",  "M82",  "M83",  "M84",  "M104", "M106", "M107", "M109", "M117", "M140", "M190",
+     "M201", "M203", "M204", "M205", "M220", "M221", "M400", "M600", "T0",   "T1"});
+
+std::string framed(const behaviour::Profile& profile, Channel channel, std::string_view body) {
+    return channel == Channel::main && profile.line.framing == behaviour::Framing::frames
+               ? protocol::frame(body)
+               : std::string(body) + "\n";
+}
+
+/// What a fresh board says on a line within the patience, after that request or after none.
+std::vector<std::string> said(const std::shared_ptr<const behaviour::Profile>& profile, Channel channel,
+                              std::string_view body) {
+    board::Board board(profile, {}, {});
+    board.connect(channel, true);
+    board.power_on(SimTime{0});
+    std::string heard;
+    bool hearing = false;
+    const auto run_to = [&](SimTime end) {
+        for (SimTime due{0}; due <= end;) {
+            due = board.advance(end);
+            heard += hearing ? board.output(channel) : std::string_view{};
+            board.clear_output();
+            board.take_datagrams([&](std::uint64_t, std::string_view bytes) {
+                heard += channel == Channel::network ? bytes : std::string_view{};
+            });
+        }
+    };
+    run_to(settling);
+    hearing = true;
+    if (!body.empty() && channel == Channel::network) {
+        board.receive_datagram(settling, 1, body);
+    } else if (!body.empty()) {
+        board.receive(settling, framed(*profile, channel, body), channel);
+        heard += board.output(channel);
+        board.clear_output();
+    }
+    run_to(settling + patience);
+    std::vector<std::string> lines;
+    while (!heard.empty()) {
+        const std::size_t end = std::min(heard.find('\n'), heard.size() - 1);
+        std::string line = heard.substr(0, end);
+        line.erase(line.find_last_not_of('\r') + 1);
+        lines.push_back(std::move(line));
+        heard.erase(0, end + 1);
+    }
+    return lines;
+}
+
+/// The words by which a line is known whatever its values are: "N-0 L2 B:" of "N-0 L2 B:22.0 ...".
+std::string head_of(const std::string& line) {
+    std::size_t end = line.starts_with("N-0 ") ? 4 : 0;
+    end = std::min(line.find_first_of(" :", end), line.size() - 1) + 1;
+    return line.substr(0, end);
+}
+
+bool knows(const behaviour::Profile& profile, Channel channel, const std::string& code) {
+    protocol::Command command;
+    return protocol::parse_command(code, command) && profile.rules_for(channel, command) != nullptr;
+}
+
+}  // namespace
+
+Cast make_cast(std::shared_ptr<const behaviour::Profile> profile,
+               std::shared_ptr<const screen::ScreenProfile> screen) {
+    Cast cast;
+    for (const char letter : std::string_view("MGT")) {
+        for (std::uint32_t number = 0; number <= highest_code; ++number) {
+            const std::string code = letter + std::to_string(number);
+            if (knows(*profile, Channel::main, code)) {
+                cast.requests.push_back(code);
+            }
+            if (knows(*profile, Channel::host, code) ||
+                std::find(usual.begin(), usual.end(), code) != usual.end()) {
+                cast.commands.push_back(code);
+            }
+        }
+    }
+    for (const Channel channel : {Channel::main, Channel::host, Channel::network}) {
+        const std::vector<Probe> probes = probes_of(profile, channel);
+        cast.probes[static_cast<std::size_t>(channel)] =
+            probes.empty() ? std::nullopt : std::optional(probes.front());
+    }
+    cast.files = {{"part.gco", small_print(12)}, {"long.gco", small_print(400)}, {"empty.gco", ""}};
+    cast.profile = std::move(profile);
+    cast.screen = std::move(screen);
+    return cast;
+}
+
+std::vector<Probe> probes_of(const std::shared_ptr<const behaviour::Profile>& profile, Channel channel) {
+    std::vector<Probe> probes;
+    const std::vector<std::string> by_itself = said(profile, channel, {});
+    for (const std::string_view request : harmless) {
+        for (const std::string& line : said(profile, channel, request)) {
+            if (std::find(by_itself.begin(), by_itself.end(), line) == by_itself.end() && !line.empty()) {
+                probes.push_back({std::string(request), head_of(line)});
+                break;
+            }
+        }
+    }
+    return probes;
+}
+
+std::string small_print(unsigned layers) {
+    std::string out =
+        ";LAYER_COUNT:" + std::to_string(layers) + "\nM140 S50\nM104 S200\nM109 S200\nG28\nG92 E0\n";
+    double e = 0;
+    for (unsigned layer = 0; layer < layers; ++layer) {
+        fmt::format_to(std::back_inserter(out), ";LAYER:{}\nG1 Z{:.2f} F600\n", layer, 0.2 * (layer + 1));
+        for (int side = 0; side < 8; ++side) {
+            e += 0.4;
+            fmt::format_to(std::back_inserter(out), "G1 X{} Y{} E{:.3f} F3000\n", 50 + side % 3 * 20,
+                           50 + side % 5 * 10, e);
+        }
+    }
+    return out + "M104 S0\nM140 S0\nM84\n";
+}
+
+}  // namespace fauxboard::world

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "emulator/behaviour/profile.h"
+#include "emulator/screen/screen_profile.h"
+
+namespace fauxboard::world {
+
+/// A request that a line answers, and how the answer is known.
+struct Probe {
+    std::string request;
+    std::string answer;  ///< a part of it
+};
+
+/// Who plays in a world: the board's profile and what goes with it. Shared by all worlds of a profile.
+struct Cast {
+    std::shared_ptr<const behaviour::Profile> profile;
+    std::shared_ptr<const screen::ScreenProfile> screen;  ///< null: nobody touches this board
+    std::map<std::string, std::string> files;             ///< on the card at first
+    std::vector<std::string> requests;                    ///< codes that the main line knows
+    std::vector<std::string> commands;                    ///< codes that the USB side knows
+    std::array<std::optional<Probe>, behaviour::channel_count> probes;
+};
+
+/// Finds out by trying what each line of a board of this profile knows and answers. A line that answers
+/// nothing that was tried has no probe.
+Cast make_cast(std::shared_ptr<const behaviour::Profile> profile,
+               std::shared_ptr<const screen::ScreenProfile> screen = nullptr);
+
+/// All of a few harmless requests that a line of such a board answers when it is at rest.
+std::vector<Probe> probes_of(const std::shared_ptr<const behaviour::Profile>& profile,
+                             behaviour::Channel channel);
+
+/// A file of a slicer that every board prints: heats, homes, some layers of short moves.
+std::string small_print(unsigned layers);
+
+}  // namespace fauxboard::world

@@ -1,0 +1,255 @@
+#include "emulator/world/invariants.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "emulator/behaviour/fields.h"
+#include "emulator/screen/screen.h"
+#include "protocol/framing.h"
+
+namespace fauxboard::world {
+namespace {
+
+/// A burst of the longest listing fits; a queue that grows does not.
+constexpr std::size_t most_output = 256UL * 1024;
+/// What one call may read of a disk: a job's look ahead, its end, and a piece of each reader.
+constexpr std::uint64_t most_bytes_read = 2UL * 1024 * 1024;
+constexpr std::uint64_t most_stops = 20'000;
+constexpr double walk_grain_mm = 0.02;
+
+bool is_framed(const View& view) {
+    return view.channel == board::Channel::main &&
+           view.board.profile().line.framing == behaviour::Framing::frames;
+}
+
+/// Calls `look(line)` for each line, its end taken off, until it finds something.
+template <class Look>
+std::string each_line(std::string_view output, Look&& look) {
+    while (!output.empty()) {
+        const std::size_t end = std::min(output.find('\n'), output.size() - 1);
+        std::string_view line = output.substr(0, end);
+        output.remove_prefix(end + 1);
+        line = line.substr(0, line.find_last_not_of('\r') + 1);
+        if (std::string found = look(line); !found.empty()) {
+            return found;
+        }
+    }
+    return {};
+}
+
+/// A real A30T sends these two without a checksum.
+bool has_no_checksum(std::string_view line) {
+    return line.starts_with("N-0 L14 Pausing") || line.starts_with("N-0 L14 file select succeed!:");
+}
+
+std::string whole_lines(const View& view) {
+    return view.output.ends_with('\n') ? "" : "output ends in the middle of a line";
+}
+
+std::string plain_lines(const View& view) {
+    return each_line(view.output, [](std::string_view line) -> std::string {
+        const bool plain = std::all_of(line.begin(), line.end(), [](char c) {
+            return static_cast<unsigned char>(c) >= 0x20 && c != 0x7F;
+        });
+        return plain ? "" : "a control character within a line";
+    });
+}
+
+std::string right_checksums(const View& view) {
+    if (!is_framed(view)) {
+        return {};
+    }
+    return each_line(view.output, [](std::string_view line) -> std::string {
+        const bool right =
+            !line.starts_with("N-0 ") || has_no_checksum(line) ||
+            protocol::unframe(line, protocol::ChecksumPolicy::required).fault == protocol::FrameFault::none;
+        return right ? "" : fmt::format("\"{}\" has a wrong checksum", line);
+    });
+}
+
+std::string bounded_output(const View& view) {
+    return view.output.size() <= most_output ? "" : fmt::format("{} bytes at once", view.output.size());
+}
+
+std::string time_goes_on(const View& view) {
+    return view.board.time() >= view.ledger.before ? "" : "the board's time went back";
+}
+
+std::string counters_add_up(const View& view) {
+    const board::Counters& c = view.board.counters();
+    if (c.lines_sent != view.ledger.lines_said) {
+        return fmt::format("{} lines said, {} counted", view.ledger.lines_said, c.lines_sent);
+    }
+    return c.lines_received == view.ledger.lines_heard
+               ? ""
+               : fmt::format("{} lines heard, {} counted", view.ledger.lines_heard, c.lines_received);
+}
+
+std::string no_more_ok_than_commands(const View& view) {
+    const Ledger& l = view.ledger;
+    return l.commands_acknowledged <= l.commands_taken
+               ? ""
+               : fmt::format("{} commands, {} acknowledgements", l.commands_taken, l.commands_acknowledged);
+}
+
+std::string each_command_has_its_ok(const View& view) {
+    const Ledger& l = view.ledger;
+    return l.commands_acknowledged == l.commands_taken
+               ? ""
+               : fmt::format("{} commands, {} acknowledgements", l.commands_taken, l.commands_acknowledged);
+}
+
+std::string progress_stays(const View& view) {
+    const Ledger& l = view.ledger;
+    const machine::Job& job = view.board.machine().job;
+    if (!job.active() || l.job_seen != l.job_number) {
+        return {};
+    }
+    return job.byte() >= l.job_byte ? ""
+                                    : fmt::format("the job went from byte {} to {}", l.job_byte, job.byte());
+}
+
+std::string place_is_within(const View& view) {
+    const machine::Job& job = view.board.machine().job;
+    return job.byte() <= job.bytes() ? "" : fmt::format("byte {} of {}", job.byte(), job.bytes());
+}
+
+std::string bounded_work(const View& view) {
+    const Ledger& l = view.ledger;
+    if (l.most_bytes_read > most_bytes_read) {
+        return fmt::format("one call read {} bytes of the disk", l.most_bytes_read);
+    }
+    return l.stops_at_one_moment <= most_stops ? "" : "the board wants to be called without end";
+}
+
+std::string nothing_named_too_early(const View& view) {
+    const std::string& name = view.disk.named_too_early();
+    return name.empty() ? "" : fmt::format("\"{}\" was written under its own name", name);
+}
+
+std::string files_are_whole(const View& view) {
+    for (const auto& [path, contents] : view.ledger.whole) {
+        const std::string* const content = view.disk.content(path);
+        if (content != nullptr && contents.find(*content) == contents.end()) {
+            return fmt::format("\"{}\" has {} bytes that nobody ever wrote as a whole", path,
+                               content->size());
+        }
+    }
+    return {};
+}
+
+std::string saved_is_there(const View& view) {
+    const std::optional<std::string>& kept = view.eeprom.kept();
+    const std::string& image = view.board.machine().eeprom_image.text();
+    return !kept || image == *kept ? "" : "the board's EEPROM holds something else than was saved";
+}
+
+std::string place_was_reached(const View& view) {
+    const std::optional<Place> place = saved_place(view.board.machine());
+    if (!place) {
+        return {};
+    }
+    const auto known = view.ledger.places.find(place->path);
+    return known != view.ledger.places.end() && known->second.contains(place->byte)
+               ? ""
+               : fmt::format("\"{}\" is to go on at byte {}, where it never was", place->path, place->byte);
+}
+
+std::string every_line_answers(const View& view) {
+    return view.ledger.unanswered.empty() ? "" : fmt::format("{}", fmt::join(view.ledger.unanswered, "; "));
+}
+
+std::string moves_once(const View& view) {
+    if (!view.ledger.walk) {
+        return {};
+    }
+    const auto& [asked, came] = *view.ledger.walk;
+    const bool there =
+        std::abs(asked[0] - came[0]) < walk_grain_mm && std::abs(asked[1] - came[1]) < walk_grain_mm;
+    return there ? ""
+                 : fmt::format("the moves lead to {:.3f}, {:.3f}; the head is at {:.3f}, {:.3f}", asked[0],
+                               asked[1], came[0], came[1]);
+}
+
+std::string screen_lives(const View& view) {
+    if (view.screen == nullptr || view.screen->counters().crashes == 0) {
+        return {};
+    }
+    for (const screen::Finding& finding : view.screen->findings()) {
+        if (finding.first.verdict == screen::Verdict::would_crash) {
+            return finding.first.sentence();
+        }
+    }
+    return "the screen crashed";
+}
+
+constexpr std::array table{
+    Invariant{Moment::output, "whole lines", "What the board says at once ends with the end of a line.",
+              whole_lines},
+    Invariant{Moment::output, "plain lines",
+              "Within a line there are no control characters, whatever names and texts it is made of.",
+              plain_lines},
+    Invariant{Moment::output, "right checksums", "Every frame has the right checksum.", right_checksums},
+    Invariant{Moment::output, "bounded output",
+              "What the board says at once is bounded by its queues, not by what it was told.",
+              bounded_output},
+    Invariant{Moment::step, "time goes on", "The board's time never goes back.", time_goes_on},
+    Invariant{Moment::step, "counters add up", "The counters are what an observer counts.", counters_add_up},
+    Invariant{Moment::step, "no more ok than commands",
+              "The USB side never hears more acknowledgements than there were commands.",
+              no_more_ok_than_commands},
+    Invariant{Moment::step, "progress stays", "A job never goes back in its file, unless it is told to.",
+              progress_stays},
+    Invariant{Moment::step, "place is within", "The place of a job lies within its file.", place_is_within},
+    Invariant{Moment::step, "bounded work",
+              "What one call reads and does is bounded, however long a file, a line or a silence was.",
+              bounded_work},
+    Invariant{Moment::step, "no name too early", "A file has its name when it is whole, and not before.",
+              nothing_named_too_early},
+    Invariant{Moment::step, "files are whole",
+              "What stands under a name is the whole of something that was written, whatever was cut off.",
+              files_are_whole},
+    Invariant{Moment::power_cut, "saved is there",
+              "What was acknowledged as saved is there after the power was cut at any moment.",
+              saved_is_there},
+    Invariant{Moment::power_cut, "place was reached",
+              "After a power cut a job goes on at a place that it really had reached.", place_was_reached},
+    Invariant{Moment::peace, "files are whole after all", "The same once all troubles are over.",
+              files_are_whole},
+    Invariant{Moment::peace, "every line answers",
+              "A good request is answered on every line, within its time, whatever happened before.",
+              every_line_answers},
+    Invariant{Moment::peace, "each command has its ok",
+              "Each accepted command of the USB side was acknowledged exactly once.",
+              each_command_has_its_ok},
+    Invariant{Moment::peace, "moves once",
+              "A move is executed once, in its order: many short ones lead where their sum leads.",
+              moves_once},
+    Invariant{Moment::step, "screen lives", "The screen never gets a line on which the real one would crash.",
+              screen_lives},
+};
+
+}  // namespace
+
+std::optional<double> number_of(const machine::Machine& machine, std::string_view path) {
+    const behaviour::Field* const field = behaviour::find_field(path);
+    const behaviour::Value value = field == nullptr ? behaviour::Value{} : field->get(machine);
+    return value.is_number() ? std::optional(value.number) : std::nullopt;
+}
+
+std::optional<Place> saved_place(const machine::Machine& machine) {
+    if (number_of(machine, "power_loss.saved_job").value_or(0) == 0) {
+        return std::nullopt;
+    }
+    return Place{std::string(behaviour::find_field("power_loss.path")->get(machine).text),
+                 static_cast<std::uint64_t>(number_of(machine, "power_loss.byte").value_or(0))};
+}
+
+std::span<const Invariant> invariants() {
+    return table;
+}
+
+}  // namespace fauxboard::world

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "emulator/machine/sim_time.h"
+
+namespace fauxboard::world {
+
+using machine::SimTime;
+
+/// What a world has seen of its board, as far as invariants speak of it. Written by the world as it happens,
+/// read by invariants.cpp alone.
+struct Ledger {
+    SimTime before{0};  ///< the board's time after the last step
+
+    // Lines, as the observer was told, since the board was made.
+    std::uint64_t lines_heard = 0;
+    std::uint64_t lines_said = 0;
+
+    // The USB side. Commands that a reset or a power cut swallowed are neither.
+    std::uint64_t commands_taken = 0;
+    std::uint64_t commands_acknowledged = 0;
+    bool ok_of_resend = false;  ///< the next ok belongs to a line that is to be sent again
+
+    // The job under way.
+    std::uint64_t job_byte = 0;
+    std::uint64_t job_number = 0;  ///< counts starts and deliberate jumps within a file
+    std::uint64_t job_seen = 0;
+
+    // What one call did.
+    std::size_t most_output = 0;
+    std::uint64_t most_bytes_read = 0;
+    std::uint64_t stops_at_one_moment = 0;
+
+    // Files: all that ever was the whole content of one.
+    std::map<std::string, std::set<std::string>, std::less<>> whole;
+    // Places at which a job really was, by path.
+    std::map<std::string, std::set<std::uint64_t>, std::less<>> places;
+
+    // A good request on each line, put to the board once it has been given peace.
+    std::vector<std::string> unanswered;
+
+    // A walk of the head by many short moves at the end: where it should have led, and where it did.
+    struct Walk {
+        std::array<double, 2> asked_mm{};
+        std::array<double, 2> came_mm{};
+    };
+    std::optional<Walk> walk;
+};
+
+}  // namespace fauxboard::world

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "emulator/fault/dice.h"
+#include "emulator/machine/services.h"
+
+namespace fauxboard::world {
+
+/// An EEPROM in memory that may refuse to be written. What it acknowledged is there after any power cut.
+class Eeprom final : public machine::EepromStore {
+  public:
+    std::optional<std::string> load() override { return kept_; }
+    bool save(std::string_view image) override {
+        if (!fails) {
+            kept_ = image;
+        }
+        return !fails;
+    }
+    const std::optional<std::string>& kept() const { return kept_; }
+    bool fails = false;
+
+  private:
+    std::optional<std::string> kept_;
+};
+
+/// The place of a job in memory, with the last ones that were kept. At a power cut the newest may not have
+/// got there; the one before it has, as host::JobPlaceFile promises.
+class JobPlace final : public machine::JobPlaceStore {
+  public:
+    std::optional<std::string> load() override { return now_; }
+    void keep(std::string_view place) override { put(std::string(place)); }
+    void drop() override { put(std::nullopt); }
+
+    void power_cut(fault::Dice& dice) {
+        if (dice.below(3) == 0) {
+            now_ = before_;
+        }
+        before_ = now_;
+    }
+
+  private:
+    void put(std::optional<std::string> place) {
+        before_ = std::move(now_);
+        now_ = std::move(place);
+    }
+    std::optional<std::string> now_;
+    std::optional<std::string> before_;
+};
+
+}  // namespace fauxboard::world

@@ -1,0 +1,398 @@
+#include "emulator/world/world.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "emulator/behaviour/action_words.h"
+#include "emulator/behaviour/fields.h"
+#include "emulator/world/steps.h"
+#include "protocol/framing.h"
+
+namespace fauxboard::world {
+namespace {
+
+using board::Channel;
+
+/// What a board that was given peace needs to come to rest: the longest wait, and the queues behind it.
+constexpr SimTime rest = std::chrono::hours(2);
+/// Within which a good request is answered then.
+constexpr SimTime patience = std::chrono::seconds(10);
+constexpr std::size_t most_places = 4096;
+
+bool is_acknowledgement(std::string_view line) {
+    return line.starts_with("ok") && (line.size() == 2 || line[2] == ' ');
+}
+
+unsigned checksum(std::string_view text) {
+    unsigned sum = 0;
+    for (const char c : text) {
+        sum ^= static_cast<unsigned char>(c);
+    }
+    return sum;
+}
+
+}  // namespace
+
+World::World(const Cast& cast, std::uint64_t seed) : cast_(cast), seed_(seed) {
+    for (const auto& [path, content] : cast.files) {
+        disk_.put(path, content);
+    }
+    if (cast.screen) {
+        screen_.emplace(cast.screen);
+        screen_->power_on(SimTime{0});
+    }
+    make_board();
+}
+
+World::~World() = default;
+
+void World::make_board() {
+    machine::Services services;
+    services.sd = &disk_;
+    services.eeprom = &eeprom_;
+    services.job_place = &job_place_;
+    board::Options options;
+    options.seed = seed_;
+    options.observer = this;
+    board_ = std::make_unique<board::Board>(cast_.profile, services, options);
+    board_->connect(Channel::host, true);
+    ledger_.lines_heard = ledger_.lines_said = 0;
+    ledger_.commands_taken = ledger_.commands_acknowledged = 0;
+    ledger_.ok_of_resend = false;
+    ledger_.before = now_;
+    new_job();
+    line_number_ = 0;
+    board_->power_on(now_);
+    take_output();
+}
+
+// What the board is told of.
+// -----------------------------------------------------------------------------------------------
+
+void World::on_received(SimTime, Channel channel, std::string_view line, board::Verdict verdict) {
+    ++ledger_.lines_heard;
+    ++requests_;
+    note(line);
+    const bool blank = line.find_first_not_of(" \t\r") == std::string_view::npos;
+    if (channel == Channel::host && verdict == board::Verdict::accepted && !blank) {
+        ++ledger_.commands_taken;
+    }
+}
+
+void World::on_sent(SimTime, Channel channel, std::string_view line) {
+    ++ledger_.lines_said;
+    if (channel != Channel::host) {
+        return;
+    }
+    if (line.starts_with("Resend:")) {
+        ledger_.ok_of_resend = true;
+    } else if (is_acknowledgement(line) && !std::exchange(ledger_.ok_of_resend, false)) {
+        ++ledger_.commands_acknowledged;
+    }
+}
+
+void World::on_notice(SimTime, board::Level, std::string_view text) {
+    note(text);
+}
+
+void World::on_event(SimTime, machine::EventId event) {
+    if (event->name == "job.started" || event->name == "job.stopped" || event->name == "file.selected") {
+        new_job();
+    }
+}
+
+/// Where the job under way is executed: a place at which it may be taken up again.
+void World::note_place() {
+    const machine::Machine& machine = board_->machine();
+    const auto byte = machine.job.active() ? number_of(machine, "job.executed_byte") : std::nullopt;
+    if (byte) {
+        ledger_.places[machine.job.path()].insert(static_cast<std::uint64_t>(*byte));
+    }
+}
+
+void World::note(std::string_view bytes) {
+    for (const char c : bytes) {
+        digest_ = (digest_ ^ static_cast<unsigned char>(c)) * 0x100000001B3U;
+    }
+    digest_ = (digest_ ^ static_cast<std::uint64_t>(now_.count())) * 0x100000001B3U;
+}
+
+// Invariants.
+// -----------------------------------------------------------------------------------------------
+
+void World::look(Moment moment, Channel channel, std::string_view output) {
+    const View view{*board_, ledger_, disk_, eeprom_, screen_ ? &*screen_ : nullptr, channel, output};
+    for (const Invariant& each : invariants()) {
+        if (each.moment != moment) {
+            continue;
+        }
+        if (const std::string found = each.broken(view); !found.empty()) {
+            throw Broken(fmt::format("{}: {} ({})", each.name, found, each.promise));
+        }
+    }
+}
+
+void World::after_step() {
+    ledger_.most_bytes_read = std::max(ledger_.most_bytes_read, disk_.take_bytes_read());
+    look(Moment::step);
+    const machine::Machine& machine = board_->machine();
+    ledger_.before = board_->time();
+    ledger_.job_byte = machine.job.byte();
+    ledger_.job_seen = ledger_.job_number;
+    ledger_.most_bytes_read = 0;
+    ledger_.stops_at_one_moment = 0;
+}
+
+// Time and lines.
+// -----------------------------------------------------------------------------------------------
+
+void World::take_output() {
+    for (const Channel channel : {Channel::main, Channel::host}) {
+        const std::string_view output = board_->output(channel);
+        if (output.empty()) {
+            continue;
+        }
+        look(Moment::output, channel, output);
+        note(output);
+        if (channel == asked_) {
+            heard_ += output;
+        }
+        if (channel == Channel::main && screen_) {
+            screen_->receive(now_, output);
+        }
+    }
+    board_->clear_output();
+    board_->take_datagrams([this](std::uint64_t, std::string_view bytes) {
+        note(bytes);
+        if (asked_ == Channel::network) {
+            heard_ += bytes;
+        }
+    });
+    note_place();
+}
+
+/// Lets the board and the screen come to that moment, each at its own ones.
+void World::run_to(SimTime time) {
+    SimTime last = now_;
+    while (true) {
+        const SimTime due = board_->advance(std::min(time, now_));
+        take_output();
+        ledger_.most_bytes_read = std::max(ledger_.most_bytes_read, disk_.take_bytes_read());
+        if (due <= now_) {
+            if (++ledger_.stops_at_one_moment > 100'000) {
+                look(Moment::step);
+            }
+            continue;
+        }
+        SimTime next = std::min(due, time);
+        if (screen_) {
+            const SimTime screen_due = screen_->advance(now_);
+            if (!screen_->output().empty()) {
+                const std::string said(screen_->output());
+                screen_->clear_output();
+                board_->receive(now_, said, Channel::main);
+                take_output();
+                continue;
+            }
+            next = std::min(next, std::max(screen_due, now_ + SimTime{1}));
+        }
+        if (now_ >= time) {
+            return;
+        }
+        now_ = std::max(next, now_);
+        if (now_ != last) {
+            ledger_.stops_at_one_moment = 0;
+            last = now_;
+        }
+    }
+}
+
+void World::pass(SimTime time) {
+    run_to(now_ + time);
+}
+
+void World::say(Channel channel, std::string_view bytes) {
+    if (!bytes.empty()) {
+        board_->receive(now_, bytes, channel);
+        take_output();
+        run_to(now_);
+    }
+}
+
+void World::command(std::string_view body) {
+    const std::string line = fmt::format("N{} {}", ++line_number_, body);
+    say(Channel::host, fmt::format("{}*{}\n", line, checksum(line)));
+    line_number_ = board_->machine().host_side().line().last;  // one that was not taken is not counted
+}
+
+void World::datagram(std::uint64_t peer, std::string_view bytes) {
+    ++requests_;
+    board_->receive_datagram(now_, peer, bytes);
+    take_output();
+    run_to(now_);
+}
+
+void World::tinker(const std::function<void(machine::Machine&)>& use) {
+    board_->tinker(now_, use);
+    take_output();
+    run_to(now_);
+}
+
+void World::act(std::string_view words) {
+    try {
+        for (const behaviour::ActionCall& call : behaviour::parse_action_words(words, *cast_.profile)) {
+            board_->act(now_, call);
+        }
+    } catch (const behaviour::ActionWordsError&) {
+        return;  // not of this machine
+    }
+    take_output();
+    run_to(now_);
+}
+
+void World::touch(fault::Dice& dice) {
+    if (screen_ && screen_->ready() && !screen_->page().buttons.empty()) {
+        const auto& buttons = screen_->page().buttons;
+        screen_->touch(buttons[dice.below(buttons.size())], dice.below(4),
+                       static_cast<double>(dice.below(300)), now_);
+        run_to(now_);
+    }
+}
+
+// Power.
+// -----------------------------------------------------------------------------------------------
+
+void World::reset() {
+    new_job();
+    ledger_.commands_taken = ledger_.commands_acknowledged = 0;
+    board_->power_on(now_);
+    take_output();
+    line_number_ = 0;
+}
+
+void World::power_cut(fault::Dice& dice) {
+    disk_.power_cut(dice);
+    job_place_.power_cut(dice);
+    for (auto& [path, places] : ledger_.places) {
+        if (places.size() > most_places) {
+            places.erase(places.begin());
+        }
+    }
+    past_ += now_;
+    now_ = SimTime{0};
+    if (screen_) {
+        screen_.emplace(cast_.screen);
+        screen_->power_on(now_);
+    }
+    make_board();
+    look(Moment::power_cut);
+}
+
+void World::reload() {
+    board_->reload(cast_.profile);
+    take_output();
+    run_to(now_);
+}
+
+// The course of a world.
+// -----------------------------------------------------------------------------------------------
+
+void World::step(std::uint64_t number) {
+    fault::Dice dice(seed_, number, 0);
+    do_step(*this, dice);
+    after_step();
+}
+
+void World::ask(Channel channel) {
+    const auto& probe = cast_.probes[static_cast<std::size_t>(channel)];
+    if (!probe) {
+        return;
+    }
+    asked_ = channel;
+    heard_.clear();
+    switch (channel) {
+        case Channel::main:
+            say(channel, "\n");  // ends what was left unfinished
+            heard_.clear();
+            say(channel, cast_.profile->line.framing == behaviour::Framing::frames
+                             ? protocol::frame(probe->request)
+                             : probe->request + "\n");
+            break;
+        case Channel::host:
+            say(channel, "\n");
+            heard_.clear();
+            say(channel, probe->request + "\n");
+            break;
+        case Channel::network:
+            datagram(99, probe->request);
+            break;
+    }
+    pass(patience);
+    if (heard_.find(probe->answer) == std::string::npos) {
+        ledger_.unanswered.push_back(fmt::format("{} on the {} line was not answered by \"{}\"",
+                                                 probe->request, board::other_end(channel), probe->answer));
+    }
+}
+
+/// Many short moves by the USB side, each with its number and checksum, and where they lead.
+void World::walk() {
+    constexpr int moves = 60;
+    const auto& probe = cast_.probes[static_cast<std::size_t>(Channel::host)];
+    if (!probe || !number_of(board_->machine(), "position.x") || board_->machine().job.active()) {
+        return;
+    }
+    fault::Dice dice(seed_, moves, 1);
+    command("G28");
+    pass(rest);
+    const auto at = [this](std::string_view path) { return number_of(board_->machine(), path).value_or(0); };
+    Ledger::Walk walk;
+    walk.asked_mm = {at("position.x"), at("position.y")};
+    command("G91");
+    for (int i = 0; i < moves; ++i) {
+        const std::array<double, 2> by{static_cast<double>(dice.below(100)) / 100,
+                                       static_cast<double>(dice.below(100)) / 100};
+        command(fmt::format("G1 X{:.2f} Y{:.2f} F3000", by[0], by[1]));
+        walk.asked_mm[0] += by[0];
+        walk.asked_mm[1] += by[1];
+        pass(std::chrono::milliseconds(dice.below(200)));
+    }
+    command("G90");
+    pass(rest);
+    walk.came_mm = {at("position.x"), at("position.y")};
+    ledger_.walk = walk;
+}
+
+void World::peace() {
+    disk_.set_trouble(Disk::Trouble::none);
+    eeprom_.fails = false;
+    tinker([](machine::Machine& machine) {
+        machine.faults.clear();
+        machine.insert_card(0);
+        machine.transfer.trouble = {};
+    });
+    say(Channel::host, "\n");
+    say(Channel::host, "M29\n");  // of a file that its host has forgotten
+    say(Channel::main, "\n");
+    if (board_->machine().hung()) {
+        reset();
+    }
+    pass(rest);
+    for (int i = 0; i < 50 && board_->machine().job.waits_for_user; ++i) {
+        tinker([](machine::Machine& machine) { machine.user_continues(); });
+        pass(rest);
+    }
+    if (board_->machine().hung()) {
+        reset();
+        pass(std::chrono::minutes(1));
+    }
+    for (const Channel channel : {Channel::main, Channel::host, Channel::network}) {
+        ask(channel);
+    }
+    walk();
+    after_step();
+    look(Moment::peace);
+}
+
+}  // namespace fauxboard::world

@@ -1,0 +1,280 @@
+// A Marlin board beyond single answers: both lines, waiting, reports, the card, questions, settings.
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "protocol/framing.h"
+#include "tests/support/marlin.h"
+
+using namespace fauxboard;
+using namespace fauxboard::testing;
+using board::Channel;
+
+namespace {
+
+struct Marlin : MarlinBench {
+    Marlin() : MarlinBench("marlin") {}
+    /// What one line brought to the other.
+    const std::string& heard_by_host() const { return said(Channel::host); }
+    void home() {
+        say("G28");
+        run_for(30);
+        forget();
+    }
+};
+
+std::ptrdiff_t count(const std::string& text, std::string_view part) {
+    std::ptrdiff_t found = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) {
+        ++found;
+    }
+    return found;
+}
+
+bool has(const std::string& text, std::string_view part) {
+    return text.find(part) != std::string::npos;
+}
+
+constexpr std::string_view position = "X:0.00 Y:0.00 Z:0.00 E:0.00 Count X:0 Y:0 Z:0\n";
+
+}  // namespace
+
+TEST_CASE_FIXTURE(Marlin, "Marlin: each line has its own numbers and its own answers") {
+    say("N1 M105*38");
+    say("N1 M82*24", Channel::host);
+    CHECK(said() == "ok T:22.00 /0.00 B:22.00 /0.00 @:0 B@:0\n");
+    CHECK(heard_by_host() == "ok\n");
+    forget();
+    say("N7 M105*32", Channel::host);
+    CHECK(said().empty());
+    CHECK(heard_by_host().starts_with(
+        "Error:Line Number is not Last Line Number+1, Last Line: 1\nResend: 2\n"));
+}
+
+TEST_CASE_FIXTURE(Marlin, "Marlin: a command that takes its time holds up both lines, and both are told") {
+    say("G4 S5");
+    say("M105", Channel::host, 4);
+    CHECK(said() == "echo:busy: processing\necho:busy: processing\n");
+    CHECK(heard_by_host() == said());
+    run_for(2);
+    CHECK(said().ends_with("processing\nok\n"));
+    CHECK(heard_by_host().ends_with("ok T:22.00 /0.00 B:22.00 /0.00 @:0 B@:0\n"));
+}
+
+TEST_CASE_FIXTURE(Marlin, "Marlin: M118 goes to whom it names") {
+    say("M118 P2 for the host");
+    CHECK(said() == "ok\n");
+    CHECK(heard_by_host() == "for the host\r\n");
+    CHECK(told("M118 A1 P0 E1 for all") == "echo://for all\r\nok\n");
+    CHECK(heard_by_host() == "echo://for all\r\n");
+    CHECK(told("M118 E1") == "echo:\r\nok\n");
+}
+
+TEST_CASE_FIXTURE(Marlin, "Marlin: reports come by themselves, on both lines, whatever else is done") {
+    say("M155 S2");
+    forget();
+    say("G4 S7", Channel::main, 6.5);
+    CHECK(count(said(), " T:22.00 /0.00 B:22.00 /0.00 @:0 B@:0\n") == 3);
+    CHECK(count(heard_by_host(), " T:22.00") == 3);
+    run_for(1);
+    say("M155 S0");
+    say("M154 S3");
+    forget();
+    run_for(7);
+    CHECK(said() == std::string(position) + std::string(position));
+}
+
+TEST_CASE_FIXTURE(Marlin, "Marlin: heating is told each second, and must hold for ten") {
+    say("M109 S60", Channel::main, 4.1);
+    CHECK(count(said(), "W:?\n") == 5);
+    CHECK(heard_by_host().find("W:") == std::string::npos);  // to whoever asked
+    run_for(200);
+    CHECK(has(said(), "W:9\n"));
+    CHECK(has(said(), "W:0\n"));
+    CHECK(said().ends_with("ok\n"));
+    CHECK(told("M109 S20", 0.1) == "ok\n");
+    CHECK(count(told("M108\nM105", 0.1), "ok") == 2);
+}
+
+TEST_CASE_FIXTURE(Marlin, "Marlin: a heater that is there already must hold as well") {
+    say("M104 S60", Channel::main, 300);
+    forget();
+    say("M109 S60", Channel::main, 0.3);
+    CHECK(said().ends_with("W:?\n"));
+    run_for(14);
+    CHECK(has(said(), "W:12\n"));
+    CHECK(said().ends_with("ok\n"));
+}
+
+TEST_CASE_FIXTURE(Marlin, "Marlin: homing ends with the position, once for O") {
+    const std::string homing = told("G28", 30);
+    CHECK(homing.ends_with(std::string(position) + "ok\n"));
+    CHECK(count(homing, "Count") == 1);
+    CHECK(told("G28 O") == "ok\n");
+    CHECK(told("G28 X", 10).ends_with(std::string(position) + "ok\n"));
+}
+
+TEST_CASE_FIXTURE(Marlin, "Marlin: the bed is measured, told, kept, and told as settings") {
+    home();
+    const std::string probing = told("G29 V1", 90);
+    CHECK(probing.starts_with("G29 Auto Bed Leveling\n"));
+    CHECK(has(probing, "Probing mesh point 1/9.\n"));
+    CHECK(has(probing, "Probing mesh point 9/9.\n"));
+    CHECK(has(probing, "Bilinear Leveling Grid:\n      0      1      2\n 0 +0."));
+    CHECK(has(told("M503 S0"), "  M420 S1 Z10.00 ; Leveling ON\n  G29 W I0 J0 Z"));
+    CHECK(told("M420 S0").starts_with("echo:Bed Leveling OFF\n"));
+    say("G29 W I1 J2 Z0.123");
+    CHECK(has(told("M503"), "echo:  G29 W I1 J2 Z0.12300\n"));
+    CHECK(told("M500").starts_with("echo:Settings Stored ("));
+    say("M502");
+    CHECK(!has(told("M503"), "G29 W"));
+    CHECK(told("M501").starts_with("echo:V88 stored settings retrieved ("));
+    CHECK(has(told("M503"), "echo:  G29 W I1 J2 Z0.12300\n"));
+}
+
+TEST_CASE_FIXTURE(Marlin, "Marlin: settings that only a profile knows are kept as well") {
+    say("M301 P30");
+    say("M851 Z-1.25");
+    say("M500");
+    say("M502");
+    CHECK(told("M301") == "  M301 P22.20 I1.08 D114.00\nok\n");
+    say("M501");
+    CHECK(has(told("M503 S0"), "  M301 P30.00 I1.08 D114.00\n"));
+    CHECK(told("M851") == "  M851 X10.00 Y10.00 Z-1.25 ; (mm)\nok\n");
+    world("board reset");
+    run_for(1);
+    CHECK(said().find("\n External Reset\n") != std::string::npos);
+    CHECK(said().find("echo:V88 stored settings retrieved (") != std::string::npos);
+    CHECK(told("M301") == "  M301 P30.00 I1.08 D114.00\nok\n");
+}
+
+TEST_CASE_FIXTURE(Marlin, "Marlin: files have short names and long ones") {
+    put("Long folder/A benchy with supports.gcode", "G28\n");
+    put("Long folder/A benchy with rafts.gcode", "G28\n");
+    put("notes.txt", "no code");
+    const std::string list = told("M20 L");
+    CHECK(has(list, "\nTEST.GCO 1234 TEST.GCO\n"));
+    CHECK(has(list, "\nLONGFO~1/ABENCH~1.GCO 4 Long folder/A benchy with rafts.gcode\n"));
+    CHECK(has(list, "\nLONGFO~1/ABENCH~2.GCO 4 Long folder/A benchy with supports.gcode\n"));
+    CHECK(!has(list, "NOTES"));
+    CHECK(told("M33 /longfo~1/abench~2.gco") == "/Long folder/A benchy with supports.gcode\nok\n");
+    CHECK(
+        has(told("M23 /longfo~1/abench~2.gco"), "\nFile opened: abench~2.gco Size: 4\nFile selected\nok\n"));
+    CHECK(has(told("M20 T"), "\nTEST.GCO 1234 0x5A210000\n"));
+}
+
+TEST_CASE_FIXTURE(Marlin, "Marlin: a print from the card, told to both, stopped, and another one") {
+    put("MOVES.G", "M302 P1\nG92 X0 Y0\nG1 F600\nG1 X50\nG1 X0\nG1 X50\n");
+    say("M23 moves.g", Channel::host);
+    CHECK(has(said(), "File opened: moves.g Size:"));
+    say("M24", Channel::host);
+    CHECK(has(said(), "//action:resume\n"));
+    say("M27 S1", Channel::host);
+    forget();
+    run_for(2.5);
+    CHECK(count(said(), "SD printing byte ") == 2);
+    CHECK(said() == heard_by_host());
+    CHECK(has(told("M25"), "//action:prompt_begin Pause SD\n//action:prompt_button Resume\n"));
+    run_for(20);
+    CHECK(has(told("M27"), "SD printing byte "));
+    CHECK(has(told("M876 S0"), "//action:resume\n"));
+    CHECK(number("job.status") == 1);
+    const std::string stop = told("M524", 20);
+    CHECK(stop.starts_with("ok\n"));
+    CHECK(has(stop, "Count X:0 Y:0"));
+    CHECK(told("M27") == "Not SD printing\nok\n");
+    say("M27 S0");
+    say("M23 moves.g");
+    say("M24");
+    forget();
+    run_for(60);
+    CHECK(said() == "Done printing file\n");
+}
+
+TEST_CASE_FIXTURE(Marlin,
+                  "Marlin: a file's own commands follow the rules, and its replies go nowhere on two lines") {
+    put("TALK.G",
+        "M118 P0 from the file\nM118 quiet\nM92\nM301 P33\nM73 P40 R12\nM808 L3\nM118 P0 again\nM808\nG4 "
+        "S1\n");
+    say("M23 talk.g");
+    say("M24");
+    forget();
+    run_for(3);
+    CHECK(said().starts_with("from the file\r\nagain\r\nagain\r\nagain\r\n"));
+    CHECK(!has(said(), "quiet"));
+    CHECK(!has(said(), "M92"));
+    CHECK(told("M301") == "  M301 P33.00 I1.08 D114.00\nok\n");
+}
+
+TEST_CASE_FIXTURE(Marlin, "Marlin: filament is changed with its questions") {
+    home();
+    say("M600", Channel::host, 20);
+    CHECK(heard_by_host().starts_with("//action:paused\n//action:prompt_end\n//action:prompt_begin Pause\n"));
+    CHECK(has(heard_by_host(), "echo:Insert filament and send M108\n"));
+    CHECK(has(heard_by_host(), "//action:prompt_begin Nozzle Parked\n//action:prompt_button Continue\n"));
+    CHECK(has(heard_by_host(), "echo:busy: paused for user\n"));
+    forget();
+    say("M876 S0", Channel::host);
+    CHECK(has(heard_by_host(),
+              "prompt_begin Paused\n//action:prompt_button PurgeMore\n//action:prompt_button Continue\n"));
+    forget();
+    say("M876 S1", Channel::host, 1);
+    CHECK(has(heard_by_host(), "//action:prompt_end\n//action:resumed\n"));
+    CHECK(count(heard_by_host(), "ok\n") == 3);  // of the two answers and of M600
+}
+
+TEST_CASE_FIXTURE(Marlin, "Marlin: M0 asks, waits and is answered") {
+    CHECK(has(told("M0"), "//action:prompt_begin M0 Stop\n//action:prompt_button Continue\n"));
+    CHECK(has(told("M108"), "//action:prompt_end\n"));
+    CHECK(has(told("M1 Change the part", 3), "echo:Change the part\r\n"));
+    CHECK(count(told("M876 S0", 0.2), "ok\n") == 2);
+    CHECK(told("M0 S1", 1.2).ends_with("ok\n"));
+}
+
+TEST_CASE_FIXTURE(Marlin, "Marlin: the emergency parser acts on every line, numbered and damaged ones too") {
+    say("M109 S200", Channel::host, 1);
+    forget();
+    say("N5 M108*999");
+    CHECK(has(said(), "Error:Line Number"));
+    CHECK(heard_by_host().ends_with("ok\n"));
+    say("G4 S10");
+    say("M1120");
+    CHECK(has(said(), "Error:Printer halted. kill() called!\n//action:poweroff\n"));
+    CHECK(told("M105", 5).empty());
+}
+
+TEST_CASE_FIXTURE(Marlin, "Marlin: a broken heater kills") {
+    say("M104 S200", Channel::main, 5);
+    forget();
+    CHECK(board().machine().faults.add(board().time(),
+                                       machine::default_request(*machine::find_fault("heater_dead"))) != 0);
+    run_for(120);
+    CHECK(has(
+        said(),
+        "Error:Heating failed, system stopped! Heater_ID: E0\n\necho:Heating Failed\nError:Printer halted. "
+        "kill() called!\n"));
+    CHECK(told("M105").empty());
+}
+
+TEST_CASE("Marlin: what it was built with is a setting of the profile") {
+    MarlinBench old("marlin-1.1");
+    CHECK(old.told("M82") == "ok\n");
+    old.say("M110 N4");
+    old.forget();
+    const std::string line = "N4 M82*" + std::to_string(protocol::xor_checksum("N4 M82"));
+    CHECK(old.told(line) == "Error:Line Number is not Last Line Number+1, Last Line: 4\nResend: 5\nok\n");
+    CHECK(old.told("M220") == "ok\n");
+    CHECK(has(old.told("M503"), "echo:Steps per unit:\necho:  M92 X80.00"));
+    CHECK(has(old.told("M115"), "FIRMWARE_NAME:Marlin 1.1.9 (Github) SOURCE_CODE_URL:https://"));
+    CHECK(old.told("M154 S1") == "echo:Unknown command: \"M154 S1\"\nok\n");
+    MarlinBench ender("ender-3");
+    CHECK(ender.told("M92") == "  M92 X80.00 Y80.00 Z400.00 E93.00\nok\n");
+    CHECK(has(ender.told("M115"), "MACHINE_TYPE:Ender-3 Pro "));
+    CHECK(has(ender.told("M115"), "Cap:AUTOLEVEL:0\n"));
+    CHECK(ender.told("G29") == "echo:Unknown command: \"G29\"\nok\n");
+    MarlinBench prusa("prusa-mk3");
+    CHECK(has(prusa.told("M115"), "FIRMWARE_NAME:Prusa-Firmware"));
+    CHECK(prusa.told("M105") == "ok T:22.0 /0.0 B:22.0 /0.0 T0:22.0 /0.0 @:0 B@:0\n");
+}

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "emulator/board/board.h"
+#include "emulator/machine/memory_volume.h"
+
+namespace fauxboard::testing {
+
+/// One row of tests/vectors/marlin.json.
+struct MarlinVector {
+    std::string name;
+    std::string world;  ///< done before; empty: nothing
+    std::vector<std::string> send;
+    std::string reply;  ///< bytes
+};
+std::vector<MarlinVector> marlin_vectors();
+/// The profile that the vectors are for.
+std::string marlin_profile();
+
+/// A board that speaks as a host on both of its lines, in virtual time, with the bytes it said on each.
+class MarlinBench {
+  public:
+    /// One second after power-on, with a card that holds TEST.GCO of 1234 bytes.
+    explicit MarlinBench(const std::string& profile);
+
+    machine::MemoryVolume card;
+
+    void world(std::string_view phrase);
+    /// Bytes from the other end of a line.
+    void feed(std::string_view bytes, board::Channel channel = board::Channel::main);
+    /// A line, and a moment for its answer.
+    void say(std::string_view line, board::Channel channel = board::Channel::main, double seconds = 0.05);
+    void run_for(double seconds);
+    /// What the board said on the line since forget().
+    const std::string& said(board::Channel channel = board::Channel::main) const {
+        return said_[static_cast<std::size_t>(channel)];
+    }
+    void forget() { said_ = {}; }
+    /// forget(), say() and said().
+    std::string told(std::string_view line, double seconds = 0.05,
+                     board::Channel channel = board::Channel::main);
+    void put(const std::string& name, const std::string& text);
+    double now() const { return now_; }
+    double number(std::string_view path) const;
+    board::Board& board() { return board_; }
+
+  private:
+    void take();
+
+    board::Board board_;
+    std::array<std::string, behaviour::channel_count> said_{};
+    double now_ = 0;
+};
+
+}  // namespace fauxboard::testing

@@ -1,0 +1,128 @@
+// Preloaded into the real program: the n-th call of one of the system's functions fails, once or from then
+// on.
+//
+//   FAIL_CALL=write FAIL_NTH=3 FAIL_ERROR=5 FAIL_EVER=1 LD_PRELOAD=libfailing_calls.so fauxboard run ...
+//
+// A file of the name FAIL_MARK appears when it has happened, so that whoever counts n up knows when to end.
+
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/epoll.h>
+#include <sys/inotify.h>
+#include <sys/socket.h>
+#include <sys/timerfd.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdarg>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+namespace {
+
+struct Plan {
+    const char* call = std::getenv("FAIL_CALL");
+    long nth = number("FAIL_NTH", 0);
+    int error = static_cast<int>(number("FAIL_ERROR", EIO));
+    bool ever = number("FAIL_EVER", 0) != 0;
+    const char* mark = std::getenv("FAIL_MARK");
+    std::atomic<long> count{0};
+
+    static long number(const char* name, long otherwise) {
+        const char* const text = std::getenv(name);
+        return text == nullptr ? otherwise : std::atol(text);
+    }
+};
+
+Plan& plan() {
+    static Plan one;
+    return one;
+}
+
+template <class Function>
+Function next(const char* name) {
+    return reinterpret_cast<Function>(::dlsym(RTLD_NEXT, name));
+}
+
+/// Whether this call of `name` is to fail; errno is set then.
+bool fails(const char* name) {
+    Plan& p = plan();
+    if (p.call == nullptr || std::strcmp(p.call, name) != 0) {
+        return false;
+    }
+    const long n = ++p.count;
+    if (n != p.nth && !(p.ever && n > p.nth)) {
+        return false;
+    }
+    if (p.mark != nullptr && n == p.nth) {
+        // By number: the functions' own names may be those that fail.
+        static const auto real = next<int (*)(const char*, int, ...)>("open");
+        const int fd = real(p.mark, O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+        static const auto real_close = next<int (*)(int)>("close");
+        real_close(fd);
+    }
+    errno = p.error;
+    return true;
+}
+
+}  // namespace
+
+#define FAUXBOARD_FAILING(result, name, parameters, arguments, failure)      \
+    extern "C" result name parameters {                                      \
+        static const auto real = next<result(*) parameters>(#name);          \
+        return fails(#name) ? static_cast<result>(failure) : real arguments; \
+    }
+
+FAUXBOARD_FAILING(ssize_t, read, (int fd, void* data, size_t size), (fd, data, size), -1)
+FAUXBOARD_FAILING(ssize_t, write, (int fd, const void* data, size_t size), (fd, data, size), -1)
+FAUXBOARD_FAILING(ssize_t, pread64, (int fd, void* data, size_t size, off64_t at), (fd, data, size, at), -1)
+FAUXBOARD_FAILING(ssize_t, pread, (int fd, void* data, size_t size, off_t at), (fd, data, size, at), -1)
+FAUXBOARD_FAILING(ssize_t, pwrite, (int fd, const void* data, size_t size, off_t at), (fd, data, size, at),
+                  -1)
+FAUXBOARD_FAILING(int, fsync, (int fd), (fd), -1)
+FAUXBOARD_FAILING(int, ftruncate, (int fd, off_t size), (fd, size), -1)
+FAUXBOARD_FAILING(int, rename, (const char* from, const char* to), (from, to), -1)
+FAUXBOARD_FAILING(int, renameat, (int a, const char* from, int b, const char* to), (a, from, b, to), -1)
+FAUXBOARD_FAILING(int, epoll_wait, (int fd, epoll_event* events, int most, int wait),
+                  (fd, events, most, wait), -1)
+FAUXBOARD_FAILING(int, epoll_ctl, (int fd, int operation, int other, epoll_event* event),
+                  (fd, operation, other, event), -1)
+FAUXBOARD_FAILING(int, epoll_create1, (int flags), (flags), -1)
+FAUXBOARD_FAILING(int, timerfd_create, (int clock, int flags), (clock, flags), -1)
+FAUXBOARD_FAILING(int, timerfd_settime, (int fd, int flags, const itimerspec* to, itimerspec* was),
+                  (fd, flags, to, was), -1)
+FAUXBOARD_FAILING(int, inotify_init1, (int flags), (flags), -1)
+FAUXBOARD_FAILING(int, inotify_add_watch, (int fd, const char* path, uint32_t mask), (fd, path, mask), -1)
+FAUXBOARD_FAILING(int, accept4, (int fd, sockaddr* address, socklen_t* size, int flags),
+                  (fd, address, size, flags), -1)
+FAUXBOARD_FAILING(int, socket, (int domain, int type, int protocol), (domain, type, protocol), -1)
+FAUXBOARD_FAILING(int, bind, (int fd, const sockaddr* address, socklen_t size), (fd, address, size), -1)
+FAUXBOARD_FAILING(int, listen, (int fd, int backlog), (fd, backlog), -1)
+FAUXBOARD_FAILING(ssize_t, sendto,
+                  (int fd, const void* data, size_t size, int flags, const sockaddr* to, socklen_t to_size),
+                  (fd, data, size, flags, to, to_size), -1)
+FAUXBOARD_FAILING(int, poll, (pollfd * fds, nfds_t count, int wait), (fds, count, wait), -1)
+FAUXBOARD_FAILING(int, pipe2, (int* ends, int flags), (ends, flags), -1)
+FAUXBOARD_FAILING(void*, malloc, (size_t size), (size), nullptr)
+
+// With one optional argument.
+extern "C" int open(const char* path, int flags, ...) {
+    static const auto real = next<int (*)(const char*, int, ...)>("open");
+    va_list rest;
+    va_start(rest, flags);
+    const mode_t mode = (flags & (O_CREAT | O_TMPFILE)) != 0 ? va_arg(rest, mode_t) : 0;
+    va_end(rest);
+    return fails("open") ? -1 : real(path, flags, mode);
+}
+
+extern "C" int openat(int folder, const char* path, int flags, ...) {
+    static const auto real = next<int (*)(int, const char*, int, ...)>("openat");
+    va_list rest;
+    va_start(rest, flags);
+    const mode_t mode = (flags & (O_CREAT | O_TMPFILE)) != 0 ? va_arg(rest, mode_t) : 0;
+    va_end(rest);
+    return fails("openat") ? -1 : real(folder, path, flags, mode);
+}

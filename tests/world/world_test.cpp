@@ -1,0 +1,82 @@
+// The seeded world: a short life of every shipped board, and the tools of the world itself.
+
+#include <doctest/doctest.h>
+
+#include "emulator/host/profile_files.h"
+#include "emulator/host/screen_files.h"
+#include "emulator/world/invariants.h"
+#include "emulator/world/play.h"
+#include "emulator/world/steps.h"
+
+namespace fauxboard::world {
+namespace {
+
+constexpr std::uint64_t seeds = 12;
+constexpr std::uint64_t steps = 50;
+
+Cast cast_of(const std::string& name) {
+    const bool touched = name == "geeetech-a30t";
+    return make_cast(host::load_profile_by_name(name),
+                     touched ? host::load_screen_by_name("geeetech-a30t") : nullptr);
+}
+
+TEST_CASE("a short life of every shipped board keeps all promises") {
+    for (const host::ProfileEntry& entry : host::list_profiles()) {
+        if (entry.name.ends_with("-base")) {
+            continue;
+        }
+        CAPTURE(entry.name);
+        const Soaked soaked =
+            soak(cast_of(entry.name), 1, steps, [](const Soaked& so_far) { return so_far.seeds >= seeds; });
+        CHECK_MESSAGE(soaked.broken.empty(), soaked.broken);
+    }
+}
+
+TEST_CASE("each line of every board has a request that it is known to answer") {
+    for (const char* name : {"geeetech-a30t", "geeetech-a30", "elegoo-mars-pro"}) {
+        const Cast cast = cast_of(name);
+        CAPTURE(name);
+        CHECK(cast.probes[static_cast<std::size_t>(behaviour::Channel::main)].has_value());
+        CHECK(cast.requests.size() > 20);
+    }
+    CHECK(cast_of("geeetech-a30t").probes[static_cast<std::size_t>(behaviour::Channel::host)].has_value());
+    CHECK(
+        cast_of("elegoo-mars-pro").probes[static_cast<std::size_t>(behaviour::Channel::network)].has_value());
+}
+
+TEST_CASE("a world is its seed: the same bytes again, and others for another") {
+    const Cast cast = cast_of("geeetech-a30t");
+    const Outcome once = play(cast, 5, whole(steps));
+    const Outcome again = play(cast, 5, whole(steps));
+    CHECK(once.digest == again.digest);
+    CHECK(once.time == again.time);
+    CHECK(once.requests == again.requests);
+    CHECK(play(cast, 6, whole(steps)).digest != once.digest);
+}
+
+TEST_CASE("a broken promise shrinks to what breaks it, and its report plays again") {
+    Cast cast = cast_of("geeetech-a30t");
+    // A line that never answers so needs nothing to happen before.
+    cast.probes[static_cast<std::size_t>(behaviour::Channel::main)] = Probe{"M105", "what no board says"};
+    const Outcome outcome = play(cast, 3, whole(20));
+    REQUIRE_FALSE(outcome.held());
+    const std::vector<std::uint64_t> fewest = shrink(cast, 3, whole(20));
+    CHECK(fewest.empty());
+    const std::string told = report(cast, 3, fewest);
+    CHECK(told.find("profile geeetech-a30t, seed 3") == 0);
+    CHECK(told.find("every line answers") != std::string::npos);
+}
+
+TEST_CASE("each promise and each kind of step has its words") {
+    for (const Invariant& each : invariants()) {
+        CHECK(each.promise.ends_with('.'));
+        CHECK((each.broken != nullptr));
+    }
+    for (const StepKind& each : step_kinds()) {
+        CHECK(each.weight > 0);
+        CHECK_FALSE(each.name.empty());
+    }
+}
+
+}  // namespace
+}  // namespace fauxboard::world

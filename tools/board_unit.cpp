@@ -1,0 +1,280 @@
+#include "tools/board_unit.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "emulator/fault/printer_fault.h"
+#include "emulator/host/board_display.h"
+#include "emulator/host/screen_files.h"
+#include "emulator/link/host_error.h"
+#include "emulator/link/ports.h"
+
+namespace fauxboard::tools {
+
+using machine::SimTime;
+
+BoardUnit::BoardUnit(link::EventLoop& loop, const RunOptions& options,
+                     std::shared_ptr<const behaviour::Profile> profile, const script::Scenario* scenario,
+                     host::Observers& observers)
+    : loop_(loop),
+      options_(options),
+      profile_(std::move(profile)),
+      scenario_(scenario),
+      observers_(observers),
+      clock_(host::make_clock(loop, options.speed)) {}
+
+void BoardUnit::say(board::Level level, std::string_view text) {
+    observers_.on_notice(live_ ? live_->now() : SimTime{0}, level, text);
+}
+
+// Setting up.
+// -----------------------------------------------------------------------------------------------
+
+link::Link& BoardUnit::make_wire() {
+    if (!options_.screen.empty()) {
+        return plug_.emplace(scenario_->cast.screen, *clock_).board_end();
+    }
+    wire_ = make_link();
+    return *wire_;
+}
+
+std::unique_ptr<link::Link> BoardUnit::make_link() {
+    if (profile_->line.none && options_.line_given) {
+        throw link::HostError(fmt::format(
+            "The board of the profile {} has no line: leave --port, --pty and --tcp out.", profile_->name));
+    }
+    if (!has_main_line()) {
+        return link::make_no_link();
+    }
+    if (!options_.tcp.empty()) {
+        return link::make_tcp_listen_link(loop_, options_.tcp);
+    }
+    if (!options_.port.empty()) {
+        const std::string port = options_.port == "auto" ? link::pick_auto_port() : options_.port;
+        return link::make_port_link(loop_, port, options_.baud != 0 ? options_.baud : profile_->line.baud);
+    }
+    return link::make_pty_link(loop_, options_.pty_name, {profile_->line.baud, true});
+}
+
+std::unique_ptr<link::Link> BoardUnit::make_host_link() {
+    const HostLine& line = options_.host;
+    if (!line.tcp.empty()) {
+        return link::make_tcp_listen_link(loop_, line.tcp);
+    }
+    if (!line.port.empty()) {
+        return link::make_port_link(loop_, line.port, line.baud);
+    }
+    return link::make_pty_link(loop_, line.pty_name, {0, false});
+}
+
+void BoardUnit::set_up() {
+    machine::Services services;
+    set_up_disks(services);
+    set_up_memory(services);
+    board::Options options;
+    options.pacing = options_.pacing;
+    options.seed = options_.seed;
+    options.observer = &observers_;
+    if (!profile_->screen.empty()) {
+        options.front = &screen_.emplace(host::load_own_screen(profile_->screen));
+    }
+    board_.emplace(profile_, services, options);
+    set_up_panel_folder();
+    board_->connect(board::Channel::main, has_main_line());
+    link_.emplace(make_wire(), *clock_, fault::Direction::to_board);
+    if (options_.host.wanted()) {
+        host_wire_ = make_host_link();
+        host_link_.emplace(*host_wire_, *clock_, fault::Direction::to_board);
+    }
+    faults_.emplace(*link_, host_link_ ? &*host_link_ : nullptr);
+    add_faults();
+    live_.emplace(*board_, *link_, *clock_, &observers_);
+    if (screen_) {
+        display_ = std::make_unique<host::BoardDisplay>(*screen_, *board_);
+    } else if (plug_) {
+        display_ = std::make_unique<host::PlugDisplay>(*plug_);
+    }
+}
+
+void BoardUnit::add_faults() {
+    for (const std::string& text : options_.faults) {
+        const fault::FaultSpec spec = fault::fault_from_text(text);
+        if (!fault::is_for_printer(spec)) {
+            faults_->add(spec);
+        } else if (board_->machine().faults.add(SimTime{0}, fault::to_request(spec)) == 0) {
+            throw fault::FaultSpecError({fmt::format("fault \"{}\": {}", text,
+                                                     board_->machine().faults.refusal(*spec.kind->printer))});
+        }
+    }
+}
+
+/// What a board keeps when it is off: some as values, some byte by byte.
+void BoardUnit::set_up_memory(machine::Services& services) {
+    if (options_.eeprom.empty()) {
+        return;
+    }
+    if (profile_->machine->eeprom_bytes != 0) {
+        services.eeprom_cells = &eeprom_cells_.emplace(options_.eeprom, profile_->machine->eeprom_bytes);
+        return;
+    }
+    const auto trouble = [this](std::string_view text) { say(board::Level::error, text); };
+    // The place first: it is what tells that another board has both.
+    services.job_place = &job_place_.emplace(host::JobPlaceFile::beside(options_.eeprom), trouble);
+    services.eeprom = &eeprom_.emplace(options_.eeprom, trouble);
+}
+
+void BoardUnit::set_up_panel_folder() {
+    if (options_.panel.empty()) {
+        return;
+    }
+    const auto* const machine = machine::as<dlp::Printer>(board_->machine());
+    if (machine == nullptr) {
+        throw link::HostError(
+            fmt::format("The board of the profile {} has no UV panel: leave --panel out.", profile_->name));
+    }
+    panel_folder_.emplace(options_.panel,
+                          [this](std::string_view text) { say(board::Level::warning, text); });
+    panel_folder_->watch(*machine);
+    observers_.add(*panel_folder_);
+}
+
+void BoardUnit::set_up_disks(machine::Services& services) {
+    if (!options_.sd.empty()) {
+        services.sd = &card_.emplace(options_.sd);
+    } else if (scenario_ != nullptr && scenario_->card) {
+        services.sd = &scenario_card_.emplace(*scenario_->card);
+    }
+    if (!options_.udisk.empty()) {
+        if (!profile_->machine->udisk_port) {
+            throw link::HostError(
+                fmt::format("The board of the profile {} has no port for a U-disk. Leave --udisk out, or say "
+                            "\"machine\": {{\"udisk_port\": true}} in a profile of your own that extends it.",
+                            profile_->name));
+        }
+        services.udisk = &udisk_.emplace(options_.udisk, "the U-disk");
+    }
+}
+
+void BoardUnit::open_target(std::function<void()> quit) {
+    target_.emplace(host::LiveTarget::Parts{loop_, *board_, *live_, *clock_, *link_, &*faults_,
+                                            std::move(quit), options_.speed.max ? 0 : options_.speed.factor,
+                                            plug_ ? nullptr : host::screen_of(*profile_), display_.get()});
+    if (plug_) {
+        target_->show(*plug_);
+    }
+    observers_.add(*target_);
+    link_->on_deed([this](const fault::Deed& deed) { target_->on_spoiled(deed); });
+    if (!options_.control.empty()) {
+        control_.emplace(loop_, target_->hub(),
+                         [this](std::string_view text) { say(board::Level::info, text); });
+        control_->open(options_.control);
+    }
+}
+
+// The run.
+// -----------------------------------------------------------------------------------------------
+
+void BoardUnit::open() {
+    if (!options_.udp.empty()) {
+        udp_ = link::make_udp_socket(loop_, options_.udp);
+        udp_->open(network_.emplace(*live_, *udp_, &observers_));
+    }
+    link_->open(*live_);
+    if (host_link_) {
+        host_link_->open(live_->attach(board::Channel::host, *host_link_));
+    }
+}
+
+nlohmann::ordered_json BoardUnit::ready() const {
+    nlohmann::ordered_json ready{
+        {"profile", profile_->name}, {"link", link_->kind()}, {"path", link_->path()}};
+    if (!options_.pty_name.empty()) {
+        ready["name"] = options_.pty_name;
+    }
+    if (host_link_) {
+        ready["host"] = {{"link", host_link_->kind()}, {"path", host_link_->path()}};
+        if (!options_.host.pty_name.empty()) {
+            ready["host"]["name"] = options_.host.pty_name;
+        }
+    }
+    if (control_) {
+        ready["control"] = options_.control;
+    }
+    if (udp_) {
+        ready["udp"] = udp_->path();
+    }
+    return ready;
+}
+
+std::vector<std::string> BoardUnit::network_paths() const {
+    std::vector<std::string> paths;
+    if (link_->kind() == "tcp") {
+        paths.push_back(link_->path());
+    }
+    if (host_link_ && host_link_->kind() == "tcp") {
+        paths.push_back(host_link_->path());
+    }
+    if (udp_) {
+        paths.push_back(udp_->path());
+    }
+    return paths;
+}
+
+std::string BoardUnit::where() const {
+    return " on " + link_->describe() +
+           (host_link_ ? ", its USB port on " + host_link_->describe() : std::string());
+}
+
+void BoardUnit::start(SimTime duration, std::function<void()> on_end) {
+    live_->start(duration, std::move(on_end));
+    if (plug_) {
+        plug_->start();
+    }
+}
+
+void BoardUnit::reload(std::shared_ptr<const behaviour::Profile> profile) {
+    profile_ = profile;
+    live_->reload(std::move(profile));
+    if (target_) {
+        target_->on_reload();
+    }
+}
+
+void BoardUnit::close() {
+    if (control_) {
+        control_->close();
+    }
+    if (udp_) {
+        udp_->close();
+    }
+    link_->close();
+    if (plug_) {
+        plug_->close();
+    }
+    if (host_link_) {
+        host_link_->close();
+    }
+}
+
+std::string BoardUnit::summary() const {
+    const board::Counters& c = board_->counters();
+    const link::LinkStats& l = link_->stats();
+    std::string out = fmt::format(
+        "After {:.3f} s: {} lines heard, {} said, on all lines. Bad frames {}, too long {}, "
+        "unknown codes {}, "
+        "no rule {}, requests lost {}, messages lost {}, cut {}. Bytes of the main line: in {}, "
+        "out {}, lost {}.\n",
+        machine::to_seconds(live_->now()), c.lines_received, c.lines_sent, c.bad_frames,
+        board_->lines_too_long(), c.unknown_codes, c.unmatched, c.requests_lost, c.messages_lost, c.lines_cut,
+        l.bytes_in, l.bytes_out, l.bytes_lost);
+    for (const fault::FaultStatus& status : faults_->list()) {
+        out += host::fault_sentence(status) + "\n";
+    }
+    for (const machine::Fault& broken : board_->machine().faults.list()) {
+        out += fault::printer_fault_sentence(broken) + "\n";
+    }
+    return out;
+}
+
+}  // namespace fauxboard::tools

@@ -1,0 +1,170 @@
+#include "tools/command_tree.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/Option.hpp>
+#include <algorithm>
+
+#include "emulator/behaviour/nearest.h"
+
+namespace fauxboard::tools {
+namespace {
+
+DeclaredOption describe(const CLI::Option& option) {
+    DeclaredOption out;
+    out.names = option_names(option);
+    out.positional = out.names.empty() ? option.get_name(true) : std::string();
+    out.value = option_value(option);
+    out.help = option.get_description();
+    out.required = option.get_required();
+    return out;
+}
+
+/// The commands below `command`, or (`named` false) its groups of options, which the library keeps as commands without
+/// a name.
+std::vector<const CLI::App*> children(const CLI::App& command, bool named) {
+    return command.get_subcommands([named](const CLI::App* sub) { return sub->get_name().empty() != named; });
+}
+
+void collect(const CLI::App& command, const std::string& path, std::vector<DeclaredCommand>& out) {
+    out.push_back({path, command.get_description(), declared_options(command)});
+    for (const CLI::App* sub : commands_of(command)) {
+        collect(*sub, path.empty() ? sub->get_name() : path + " " + sub->get_name(), out);
+    }
+}
+
+std::string sentence(const CLI::App& command, std::string_view what, const std::string& word,
+                     const std::vector<std::string>& known, bool list) {
+    const std::vector<std::string_view> names(known.begin(), known.end());
+    const std::string_view nearest = behaviour::nearest(word, names);
+    std::string text = command.get_parent() == nullptr ? "" : command.get_name() + ": ";
+    text += fmt::format("there is no {} '{}'", what, word);
+    if (list) {
+        text += fmt::format("; known: {}", fmt::join(known, " "));
+    }
+    if (!nearest.empty()) {
+        text += fmt::format("; did you mean '{}'?", nearest);
+    }
+    return text;
+}
+
+/// The option that `word` names, of this command; null for none.
+const CLI::Option* option_of(const CLI::App& command, std::string_view word) {
+    const std::string name(word.substr(0, word.find('=')));
+    if (const CLI::Option* const option = command.get_option_no_throw(name); option != nullptr) {
+        return option;
+    }
+    for (const CLI::App* group : children(command, false)) {
+        if (const CLI::Option* const option = option_of(*group, word); option != nullptr) {
+            return option;
+        }
+    }
+    return nullptr;
+}
+
+std::string unknown_option(const CLI::App& command, const std::string& word) {
+    std::vector<std::string> known;
+    for (const DeclaredOption& option : declared_options(command)) {
+        known.insert(known.end(), option.names.begin(), option.names.end());
+    }
+    return sentence(command, "option", word.substr(0, word.find('=')), known, false);
+}
+
+std::string unknown_command(const CLI::App& command, const std::string& word) {
+    std::vector<std::string> known;
+    for (const CLI::App* sub : commands_of(command)) {
+        known.push_back(sub->get_name());
+    }
+    return sentence(command, "command", word, known, true);
+}
+
+std::size_t count_positionals(const CLI::App& command) {
+    const std::vector<DeclaredOption> options = declared_options(command);
+    return static_cast<std::size_t>(std::count_if(
+        options.begin(), options.end(), [](const DeclaredOption& option) { return option.names.empty(); }));
+}
+
+}  // namespace
+
+std::vector<const CLI::App*> commands_of(const CLI::App& command) {
+    return children(command, true);
+}
+
+const CLI::App* find_command(const CLI::App& command, std::string_view name) {
+    for (const CLI::App* sub : commands_of(command)) {
+        if (sub->get_name() == name) {
+            return sub;
+        }
+    }
+    return nullptr;
+}
+
+std::vector<std::string> option_names(const CLI::Option& option) {
+    std::vector<std::string> names;
+    for (const std::string& name : option.get_snames()) {
+        names.push_back("-" + name);
+    }
+    for (const std::string& name : option.get_lnames()) {
+        names.push_back("--" + name);
+    }
+    return names;
+}
+
+std::string option_value(const CLI::Option& option) {
+    if (option_names(option).empty() || option.get_items_expected_max() == 0) {
+        return {};
+    }
+    std::string type = option.get_type_name();
+    // Behind it the library puts its own words for what is valid.
+    for (const std::string_view valid : {":{", ":UINT", ":INT", ":FLOAT", ":NONNEGATIVE", ":POSITIVE"}) {
+        type.resize(std::min(type.size(), type.find(valid)));
+    }
+    return type;
+}
+
+std::string unknown_word(const CLI::App& app, const std::vector<std::string>& words) {
+    const CLI::App* command = &app;
+    std::size_t positionals = count_positionals(app);  // which may come before a subcommand
+    for (std::size_t i = 0; i < words.size() && words[i] != "--"; ++i) {
+        const std::string& word = words[i];
+        if (word.starts_with("--")) {
+            const CLI::Option* const option = option_of(*command, word);
+            if (option == nullptr) {
+                return unknown_option(*command, word);
+            }
+            const bool takes_next = option->get_items_expected_min() > 0 && word.find('=') == std::string::npos;
+            i += takes_next ? 1 : 0;
+        } else if (word.starts_with('-') || commands_of(*command).empty()) {
+            continue;  // the library's own business
+        } else if (const CLI::App* const sub = find_command(*command, word); sub != nullptr) {
+            command = sub;
+            positionals = count_positionals(*sub);
+        } else if (positionals != 0) {
+            --positionals;
+        } else {
+            return unknown_command(*command, word);
+        }
+    }
+    return {};
+}
+
+std::vector<DeclaredOption> declared_options(const CLI::App& command) {
+    std::vector<DeclaredOption> out;
+    for (const CLI::Option* option : command.get_options()) {
+        out.push_back(describe(*option));
+    }
+    for (const CLI::App* group : children(command, false)) {
+        const std::vector<DeclaredOption> more = declared_options(*group);
+        out.insert(out.end(), more.begin(), more.end());
+    }
+    return out;
+}
+
+std::vector<DeclaredCommand> declared_commands(const CLI::App& app) {
+    std::vector<DeclaredCommand> out;
+    collect(app, {}, out);
+    return out;
+}
+
+}  // namespace fauxboard::tools

@@ -1,0 +1,189 @@
+// `fauxboard fleet`: many boards in one process, on one event loop.
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "emulator/host/profile_files.h"
+#include "emulator/host/text_output.h"
+#include "emulator/link/host_error.h"
+#include "emulator/panel/panel.h"
+#include "tools/board_unit.h"
+#include "tools/commands.h"
+#include "tools/fleet_file.h"
+#include "tools/option_values.h"
+#include "tools/report.h"
+#include "tools/run_options.h"
+
+namespace fauxboard::tools {
+namespace {
+
+struct FleetArguments {
+    std::string file;
+    std::optional<std::string> web;
+    host::Speed speed;
+    machine::SimTime duration = machine::never;
+    bool quiet = false;
+};
+
+/// Says of one board what a person has to know: with its name, warnings and errors only.
+class Troubles final : public host::LiveObserver {
+  public:
+    Troubles(host::TextOutput& err, std::string name) : err_(err), name_(std::move(name)) {}
+    void on_received(host::SimTime, board::Channel, std::string_view, board::Verdict) override {}
+    void on_sent(host::SimTime, board::Channel, std::string_view) override {}
+    void on_notice(host::SimTime now, board::Level level, std::string_view text) override {
+        if (level >= board::Level::warning) {
+            err_.write(fmt::format("{}: {:.3f} s: {}\n", name_, machine::to_seconds(now), text));
+        }
+    }
+    void on_link(host::SimTime, link::LinkState, std::string_view) override {}
+
+  private:
+    host::TextOutput& err_;
+    std::string name_;
+};
+
+/// All boards, in the order of their file.
+class FleetRun {
+  public:
+    FleetRun(const FleetArguments& arguments, Fleet fleet)
+        : arguments_(arguments),
+          fleet_(std::move(fleet)),
+          out_(STDOUT_FILENO),
+          err_(STDERR_FILENO),
+          signals_(loop_, {SIGINT, SIGTERM, SIGHUP}, [this](int) { loop_.stop(); }) {}
+
+    ExitCode operator()() {
+        for (FleetBoard& board : fleet_.boards) {
+            add(board);
+        }
+        if (arguments_.web) {
+            std::vector<panel::Panel::Shown> shown;
+            for (std::size_t i = 0; i < members_.size(); ++i) {
+                shown.push_back({fleet_.boards[i].name, *members_[i]->unit.target()});
+            }
+            panel_.emplace(loop_, *arguments_.web, std::move(shown));
+        }
+        say_ready();
+        std::size_t running = members_.size();
+        for (const auto& member : members_) {
+            member->unit.start(arguments_.duration, [this, &running] {
+                if (--running == 0) loop_.stop();
+            });
+        }
+        loop_.run();
+        for (const auto& member : members_) {
+            if (member->unit.target() != nullptr) member->unit.target()->on_end();
+        }
+        panel_.reset();
+        for (const auto& member : members_) {
+            member->unit.close();
+        }
+        return ExitCode::ok;
+    }
+
+  private:
+    /// One board with those who look at it.
+    struct Member {
+        Member(FleetRun& run, const FleetBoard& board, std::shared_ptr<const behaviour::Profile> profile)
+            : troubles(run.err_, board.name),
+              unit(run.loop_, board.options, std::move(profile), nullptr, observers) {
+            if (!run.arguments_.quiet) observers.add(troubles);
+        }
+        host::Observers observers;
+        Troubles troubles;
+        BoardUnit unit;
+    };
+
+    void add(FleetBoard& board) {
+        board.options.speed = arguments_.speed;
+        auto& profile = profiles_[board.options.profile];
+        if (!profile) {
+            profile = host::load_profile_by_name(board.options.profile);
+        }
+        Member& member = *members_.emplace_back(std::make_unique<Member>(*this, board, profile));
+        member.unit.set_up();
+        if (arguments_.web || !board.options.control.empty()) {
+            member.unit.open_target([this] { loop_.stop(); });
+        }
+        member.unit.open();
+    }
+
+    void say_ready() {
+        nlohmann::ordered_json ready{{"boards", nlohmann::ordered_json::array()}};
+        for (std::size_t i = 0; i < members_.size(); ++i) {
+            nlohmann::ordered_json one{{"name", fleet_.boards[i].name}};
+            one.update(members_[i]->unit.ready());
+            ready["boards"].push_back(std::move(one));
+        }
+        if (panel_) {
+            ready["web"] = panel_->address();
+        }
+        out_.write("ready " + ready.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) + "\n");
+        err_.write(fmt::format(
+            "This is fauxboard, an emulator: there are no real printers here.\n"
+            "{} boards. Ctrl-C ends them.\n{}",
+            members_.size(), panel_ ? "To look at them, open " + panel_->address() + "\n" : std::string()));
+    }
+
+    const FleetArguments& arguments_;
+    Fleet fleet_;
+    link::EventLoop loop_;
+    host::TextOutput out_;
+    host::TextOutput err_;
+    std::map<std::string, std::shared_ptr<const behaviour::Profile>>
+        profiles_;  ///< by what the file calls them
+    std::vector<std::unique_ptr<Member>> members_;
+    std::optional<panel::Panel> panel_;
+    link::Signals signals_;
+};
+
+/// Each board takes two or three descriptors: as many as the system lets us have.
+void allow_descriptors() {
+    rlimit limit{};
+    if (::getrlimit(RLIMIT_NOFILE, &limit) == 0 && limit.rlim_cur < limit.rlim_max) {
+        limit.rlim_cur = limit.rlim_max;
+        (void)::setrlimit(RLIMIT_NOFILE, &limit);
+    }
+}
+
+ExitCode fleet(const FleetArguments& arguments) {
+    allow_descriptors();
+    try {
+        return FleetRun{arguments, read_fleet(arguments.file)}();
+    } catch (const behaviour::ProfileError& error) {
+        return complain("fleet", ExitCode::bad_input, error.what());
+    } catch (const link::HostError& error) {
+        return complain("fleet", ExitCode::bad_input, error.what());
+    } catch (const fault::FaultSpecError& error) {
+        return complain("fleet", ExitCode::bad_input, error.what());
+    } catch (const link::LinkError& error) {
+        return complain("fleet", ExitCode::no_port, error.what());
+    }
+}
+
+}  // namespace
+
+void add_fleet(CLI::App& app, ExitCode& exit) {
+    CLI::App* command =
+        app.add_subcommand("fleet", "Be many boards in one process, each on lines of its own");
+    const auto arguments = std::make_shared<FleetArguments>();
+    command
+        ->add_option("file", arguments->file,
+                     "The boards, as JSON: {\"boards\": [{\"profile\": ..., \"count\": 20}]}")
+        ->type_name("FILE.json")
+        ->required();
+    add_web(*command, arguments->web);
+    add_speed(*command, arguments->speed, false);
+    add_duration(*command, arguments->duration, "Stop after this virtual time");
+    command->add_flag("-q,--quiet", arguments->quiet, "Say nothing of the boards' troubles");
+    command->callback([arguments, &exit] { exit = fleet(*arguments); });
+}
+
+}  // namespace fauxboard::tools

@@ -1,0 +1,77 @@
+// `fauxboard manual` and `fauxboard completion`: what packages install, and what a shell can source.
+
+#include <CLI/Validators.hpp>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tools/command_tree.h"
+#include "tools/commands.h"
+#include "tools/manual.h"
+#include "tools/report.h"
+
+namespace fauxboard::tools {
+namespace {
+
+/// Each page under its name in `folder`. False when one of them cannot be written.
+bool write_pages(const CLI::App& app, const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    std::vector<const CLI::App*> commands = commands_of(app);
+    commands.push_back(&app);
+    for (const CLI::App* command : commands) {
+        const std::string name = command == &app ? "fauxboard" : "fauxboard-" + command->get_name();
+        std::ofstream out(folder / (name + ".1"), std::ios::binary);
+        if (!(out << man_page(app, *command) << std::flush)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+ExitCode manual(const CLI::App& app, const std::string& name, const std::string& folder) {
+    if (!folder.empty()) {
+        return write_pages(app, folder)
+                   ? ExitCode::ok
+                   : complain("manual", ExitCode::bad_input, folder + ": pages cannot be written there");
+    }
+    print(man_page(app, name.empty() ? app : *find_command(app, name)));
+    return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_manual(CLI::App& app, ExitCode& exit) {
+    CLI::App* pages =
+        app.add_subcommand("manual", "A manual page in roff: fauxboard manual run | man -l -");
+    const auto name = std::make_shared<std::string>();
+    const auto folder = std::make_shared<std::string>();
+    CLI::Option* command =
+        pages->add_option("command", *name, "The command; fauxboard itself when none is named")
+            ->check([&app](const std::string& text) {
+                return find_command(app, text) != nullptr ? std::string()
+                                                                    : "there is no command '" + text + "'";
+            });
+    pages->add_option("--all", *folder, "Write every page into this folder")
+        ->type_name("DIR")
+        ->excludes(command);
+    pages->callback([&app, name, folder, &exit] { exit = manual(app, *name, *folder); });
+
+    CLI::App* shells = app.add_subcommand(
+        "completion", "What a shell reads to complete commands: source <(fauxboard completion bash)");
+    const auto shell = std::make_shared<std::string>();
+    static const std::map<std::string, Shell> known{
+        {"bash", Shell::bash}, {"zsh", Shell::zsh}, {"fish", Shell::fish}};
+    shells->add_option("shell", *shell, "bash, zsh or fish")
+        ->required()
+        ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+    shells->callback([&app, shell, &exit] {
+        print(completion(app, known.at(*shell)));
+        exit = ExitCode::ok;
+    });
+}
+
+}  // namespace fauxboard::tools

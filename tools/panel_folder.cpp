@@ -1,0 +1,90 @@
+#include "tools/panel_folder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "emulator/dlp/event_rows.h"
+#include "emulator/link/host_error.h"
+#include "tools/png_file.h"
+
+namespace fauxboard::tools {
+namespace {
+
+/// Files hold 32-bit floats; a person wants 0.05, not 0.0500000007.
+double rounded(double value) {
+    return std::round(value * 1e6) / 1e6;
+}
+
+/// The pixels of a panel's line without the dead ones behind each half, 180 bytes.
+void take_pixels(std::span<const std::uint8_t> line, std::span<unsigned char> row) {
+    constexpr std::size_t half = dlp::half_columns / 8;
+    std::copy_n(line.begin(), half, row.begin());
+    std::copy_n(line.begin() + dlp::line_bytes / 2, half, row.begin() + half);
+}
+
+}  // namespace
+
+PanelFolder::PanelFolder(std::string folder, OnTrouble on_trouble)
+    : folder_(std::move(folder)), on_trouble_(std::move(on_trouble)) {
+    std::error_code error;
+    std::filesystem::create_directories(folder_, error);
+    lines_.open(std::filesystem::path(folder_) / "panel.jsonl", std::ios::binary | std::ios::trunc);
+    if (!lines_) {
+        throw link::HostError(fmt::format("The folder {} cannot be written to: {}.", folder_,
+                                          error ? error.message() : "panel.jsonl cannot be made"));
+    }
+}
+
+void PanelFolder::write_picture(const std::string& name) const {
+    const dlp::UvPanel& panel = machine_->board.panel;
+    const unsigned bank = dlp::bank_of(panel.fpga().command());
+    unsigned line = 0;
+    write_png((std::filesystem::path(folder_) / name).string(),
+              {dlp::panel_columns, dlp::panel_lines, false, true, [&](std::span<unsigned char> row) {
+                   panel.white() ? static_cast<void>(std::fill(row.begin(), row.end(), 0xFF))
+                                 : take_pixels(panel.fpga().line(bank, line), row);
+                   ++line;
+                   return true;
+               }});
+}
+
+void PanelFolder::on_event(machine::SimTime now, machine::EventId event) {
+    if (event != dlp::event("print.displayed") || failed_ || machine_ == nullptr) {
+        return;
+    }
+    const dlp::MksBoard& board = machine_->board;
+    const unsigned bank = dlp::bank_of(board.panel.fpga().command());
+    const std::string name = fmt::format("{:06}.png", ++count_);
+    nlohmann::ordered_json line{{"t", machine::to_seconds(now)}};
+    if (board.print.active()) {
+        line["layer"] = board.print.layer();
+        line["z_mm"] = rounded(board.print.plan().z_mm);
+        line["exposure_s"] = machine::to_seconds(board.print.exposure());
+    } else {
+        line["layer"] = nullptr;
+        line["image"] = board.uv_test.image();
+    }
+    line["bank"] = bank;
+    line["lit"] = board.panel.lit();
+    line["md5"] = board.panel.fpga().md5(bank);
+    line["file"] = name;
+    try {
+        write_picture(name);
+        lines_ << line.dump() << std::endl;
+        failed_ = !lines_;
+    } catch (const link::HostError& error) {
+        failed_ = true;
+        on_trouble_(error.what());
+        return;
+    }
+    if (failed_) {
+        on_trouble_("panel.jsonl cannot be written to; no more pictures are.");
+    }
+}
+
+}  // namespace fauxboard::tools

@@ -1,0 +1,306 @@
+// `fauxboard screen ... --control PATH`: the screen that is part of a running board.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <set>
+
+#include "emulator/link/event_loop.h"
+#include "emulator/link/host_error.h"
+#include "emulator/screen/page_view.h"
+#include "emulator/screen/tour_report.h"
+#include "tools/control_screen.h"
+#include "tools/ctl_text.h"
+#include "tools/report.h"
+#include "tools/screen_commands.h"
+#include "tools/terminal.h"
+
+namespace fauxboard::tools {
+namespace {
+
+/// A box without buttons closes by itself: so long the tour waits for that, step by step.
+constexpr std::string_view wait_step = "2s";
+constexpr int most_waits = 900;
+/// Of one control, at one place: it may lead on in several ways.
+constexpr std::size_t most_touches = 4000;
+
+std::string last_part(const std::string& path) {
+    return path.substr(path.rfind('/') + 1);
+}
+
+/// What a touch led from and to.
+struct Outcome {
+    std::string from;
+    std::string control;
+    std::string to;
+    std::string why;
+};
+
+/// Walks every page and every control, as a person would who tries everything.
+class OwnTour {
+  public:
+    explicit OwnTour(ControlScreen& screen) : screen_(screen), profile_(screen.profile()) {}
+
+    void run() {
+        for (std::size_t i = 0; i < most_touches; ++i) {
+            Json page = settle();
+            const auto next = choose(page);
+            if (!next) {
+                return;
+            }
+            touch(page, *next);
+        }
+    }
+
+    /// One result for each control of each page, those never reached among them.
+    std::vector<screen::TourResult> results() const {
+        std::vector<screen::TourResult> out;
+        for (const Outcome& one : outcomes_) {
+            screen::TourResult result;
+            result.button = one.from + "/" + one.control;
+            result.came = {one.to};
+            result.verdict = one.why.empty() ? screen::TourVerdict::met : screen::TourVerdict::not_pressed;
+            result.sentence = one.why.empty() ? "leads to " + one.to : one.why;
+            out.push_back(std::move(result));
+        }
+        for (const screen::Page& page : profile_->pages) {
+            if (!seen_.contains(name_of(page))) {
+                screen::TourResult result;
+                result.button = page.path;
+                result.sentence = "no touch of this tour led to it";
+                out.push_back(std::move(result));
+            }
+        }
+        return out;
+    }
+    const std::string& name() const { return profile_->name; }
+
+  private:
+    static std::string name_of(const screen::Page& page) {
+        return page.face.box ? page.face.box->caption.in(0).source() + page.face.box->text.in(0).source()
+                             : page.path;
+    }
+
+    /// The page, once a box that closes by itself has done so.
+    Json settle() {
+        Json page = screen_.page();
+        for (int i = 0; i < most_waits && page.at("controls").empty(); ++i) {
+            note(page);
+            const bool covered = !page.at("box").is_object() && i > 2;
+            covered ? static_cast<void>(screen_.touch("")) : screen_.pass(wait_step);
+            page = screen_.page();
+        }
+        note(page);
+        return page;
+    }
+
+    void note(const Json& page) {
+        seen_.insert(page.value("page", ""));
+        if (!page.at("box").is_object()) return;
+        // A box is known by what it says, places in its text left aside.
+        for (const screen::Page& one : profile_->pages) {
+            if (one.face.box && fits(one.face.box->caption, page.at("box").value("caption", "")) &&
+                fits(one.face.box->text, page.at("box").value("text", ""))) {
+                seen_.insert(name_of(one));
+            }
+        }
+    }
+
+    /// Whether the text may be that template filled in, in any language: what stands before its first place.
+    static bool fits(const screen::Words& words, const std::string& text) {
+        return std::any_of(words.by_language.begin(), words.by_language.end(), [&](const auto& one) {
+            return text.starts_with(one.source().substr(0, one.source().find('{')));
+        });
+    }
+
+    /// The control to touch: one that was not, those that lead away last; else one on the way to some.
+    std::optional<std::string> choose(const Json& page) {
+        const std::string place = place_of(page);
+        std::vector<std::string> untouched;
+        std::vector<std::string> enabled;
+        for (const Json& control : page.at("controls")) {
+            const std::string name = control.value("name", "");
+            if (!control.value("enabled", true)) {
+                if (touched_[place].insert(name).second) {
+                    outcomes_.push_back({place, name, place, {}});
+                }
+                continue;
+            }
+            enabled.push_back(name);
+            if (!touched_[place].contains(name)) untouched.push_back(name);
+        }
+        open_[place] = untouched.size();
+        for (const bool leaving : {false, true}) {
+            for (const std::string& name : untouched) {
+                if ((name == "Back" || name == "OK" || name == "Yes") == leaving) return name;
+            }
+        }
+        return way_on(place, enabled);
+    }
+
+    /// The least used control that once led to a place from which there is still something to do.
+    std::optional<std::string> way_on(const std::string& place, const std::vector<std::string>& enabled) {
+        std::map<std::string, std::string> first{{place, ""}};
+        std::vector<std::string> queue{place};
+        for (std::size_t i = 0; i < queue.size(); ++i) {
+            if (i > 0 && open_[queue[i]] > 0) return first[queue[i]];
+            for (const auto& [control, to] : ways_[queue[i]]) {
+                const bool here =
+                    i > 0 || std::find(enabled.begin(), enabled.end(), control) != enabled.end();
+                if (here && first.emplace(to, i == 0 ? control : first[queue[i]]).second) queue.push_back(to);
+            }
+        }
+        return std::nullopt;
+    }
+
+    void touch(const Json& page, const std::string& control) {
+        const std::string from = place_of(page);
+        Outcome outcome{from, control, {}, screen_.touch(control)};
+        const Json after = screen_.page();
+        outcome.to = place_of(after);
+        const std::string settled = place_of(settle());
+        if (touched_[from].insert(control).second) {
+            open_[from] -= open_[from] > 0 ? 1 : 0;
+            outcomes_.push_back(outcome);
+        }
+        if (settled != from) {
+            ways_[from][control] = settled;
+            open_.emplace(settled, 1);  // until it has been looked at
+        } else {
+            ways_[from].erase(control);
+        }
+    }
+
+    ControlScreen& screen_;
+    std::shared_ptr<const screen::ScreenProfile> profile_;
+    std::set<std::string> seen_;
+    std::map<std::string, std::set<std::string>> touched_;
+    std::map<std::string, std::map<std::string, std::string>> ways_;
+    std::map<std::string, std::size_t> open_;  ///< controls not touched yet, by place
+    std::vector<Outcome> outcomes_;
+};
+
+/// The page as the terminal's console takes it: buttons by their place in the page's list.
+screen::PageView view_of(const Json& page) {
+    screen::PageView out;
+    out.path = place_of(page);
+    out.title = page.value("title", "");
+    for (const Json& text : page.at("texts")) {
+        out.lines.push_back(text.get<std::string>());
+    }
+    if (const Json& box = page.at("box"); box.is_object()) {
+        out.lines = {"[" + box.value("caption", "") + "]", box.value("text", "")};
+        std::replace(out.lines.back().begin(), out.lines.back().end(), '\n', ' ');
+    }
+    std::size_t number = 0;
+    for (const Json& control : page.at("controls")) {
+        screen::ButtonView button;
+        button.button = number++;
+        button.row = 1;
+        button.label = control.value("name", "");
+        button.shut = control.value("enabled", true) ? "" : "it is dead now";
+        out.buttons.push_back(std::move(button));
+    }
+    return out;
+}
+
+/// The board's screen in a terminal; looked at ten times a second.
+class OwnInteractive {
+  public:
+    OwnInteractive(ControlScreen& screen, std::string name)
+        : screen_(screen), console_(std::move(name)), page_(screen.page()) {}
+
+    void run() {
+        Terminal terminal(loop_, {[this](const screen::Key& key) { press(key); }, [this] { changed_ = true; },
+                                  [this] { loop_.stop(); }});
+        while (!loop_.stopped()) {
+            const Json now = screen_.page();
+            if (changed_ || now != page_) {
+                page_ = now;
+                changed_ = false;
+                console_.resize(terminal.columns(), terminal.rows());
+                console_.show(view_of(page_));
+                terminal.draw(console_.layout());
+            }
+            loop_.run_one_for(look_every);
+        }
+    }
+
+  private:
+    static constexpr std::chrono::milliseconds look_every{100};
+
+    void press(const screen::Key& key) {
+        const screen::Reaction reaction = console_.press(key);
+        changed_ = true;
+        if (reaction.quit) {
+            loop_.stop();
+        } else if (reaction.touch && reaction.touch->button < page_.at("controls").size()) {
+            const std::string why =
+                screen_.touch(page_.at("controls")[reaction.touch->button].value("name", ""));
+            if (!why.empty()) console_.say(why);
+        }
+    }
+
+    ControlScreen& screen_;
+    link::EventLoop loop_;
+    screen::Console console_;
+    Json page_;
+    bool changed_ = true;
+};
+
+}  // namespace
+
+ExitCode show_own(const ScreenOptions& options) {
+    ControlScreen screen(options.control);
+    const Json page = screen.page();
+    print(options.json ? page.dump(2) + "\n" : answer_text(page));
+    return ExitCode::ok;
+}
+
+ExitCode press_own(const ScreenOptions& options) {
+    ControlScreen screen(options.control);
+    for (const std::string& path : options.buttons) {
+        const std::string why = screen.touch(last_part(path));
+        const Json page = screen.page();
+        if (options.json) {
+            print(Json{{"button", path}, {"pressed", why.empty()}, {"why", why}, {"page", page}}.dump() +
+                  "\n");
+        } else if (why.empty()) {
+            print(fmt::format("{}: {}\n", path, place_of(page)));
+        }
+        if (!why.empty()) {
+            return complain("screen", ExitCode::failed, why);
+        }
+    }
+    return ExitCode::ok;
+}
+
+ExitCode tour_own(const ScreenOptions& options) {
+    ControlScreen screen(options.control);
+    OwnTour tour(screen);
+    tour.run();
+    const auto results = tour.results();
+    print(options.json ? screen::tour_json(tour.name(), results) : screen::tour_table(results));
+    if (!options.junit.empty()) {
+        std::ofstream out(options.junit, std::ios::binary);
+        out << screen::tour_junit(tour.name(), results);
+        out.flush();
+        if (!out) {
+            return complain("screen", ExitCode::bad_input, options.junit + " cannot be written");
+        }
+    }
+    const bool all = std::all_of(results.begin(), results.end(), [](const screen::TourResult& one) {
+        return one.verdict == screen::TourVerdict::met;
+    });
+    return all ? ExitCode::ok : ExitCode::failed;
+}
+
+ExitCode interactive_own(const ScreenOptions& options) {
+    ControlScreen screen(options.control);
+    OwnInteractive(screen, screen.profile()->name).run();
+    return ExitCode::ok;
+}
+
+}  // namespace fauxboard::tools

@@ -1,0 +1,127 @@
+// `fauxboard soak`: years of a board's life among peers, disks and powers that misbehave.
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "emulator/host/profile_files.h"
+#include "emulator/host/screen_files.h"
+#include "emulator/world/invariants.h"
+#include "emulator/world/play.h"
+#include "tools/report.h"
+
+namespace fauxboard::tools {
+namespace {
+
+constexpr double seconds_a_year = 365.25 * 24 * 3600;
+
+struct SoakOptions {
+    std::string profile;
+    std::string screen;
+    double years = 1;
+    std::uint64_t seed = 1;
+    std::uint64_t steps = 60;
+    std::vector<std::uint64_t> only;
+    bool json = false;
+    bool promises = false;
+};
+
+std::string promises_text() {
+    std::string out;
+    for (const world::Invariant& each : world::invariants()) {
+        out += fmt::format("{:<26} {}\n", each.name, each.promise);
+    }
+    return out;
+}
+
+double years(machine::SimTime time) {
+    return machine::to_seconds(time) / seconds_a_year;
+}
+
+ExitCode replay_one(const world::Cast& cast, const SoakOptions& options) {
+    const world::Outcome outcome = world::play(cast, options.seed, options.only);
+    print(outcome.held() ? "All promises held.\n" : world::report(cast, options.seed, options.only) + "\n");
+    return outcome.held() ? ExitCode::ok : ExitCode::failed;
+}
+
+std::string text_of(const world::Soaked& soaked) {
+    if (!soaked.broken.empty()) {
+        return fmt::format("A promise was broken in world {}: {}\n", soaked.seeds, soaked.broken);
+    }
+    return fmt::format("{} worlds, {:.2f} years, {} requests: all {} promises held.\n", soaked.seeds,
+                       years(soaked.time), soaked.requests, world::invariants().size());
+}
+
+std::string json_of(const world::Soaked& soaked) {
+    const nlohmann::ordered_json out{
+        {"worlds", soaked.seeds},
+        {"years", years(soaked.time)},
+        {"requests", soaked.requests},
+        {"promises", world::invariants().size()},
+        {"broken", soaked.broken.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(soaked.broken)}};
+    return out.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+ExitCode soak(const SoakOptions& options) {
+    if (options.promises) {
+        print(promises_text());
+        return ExitCode::ok;
+    }
+    try {
+        auto screen = options.screen.empty() ? nullptr : host::load_screen_by_name(options.screen);
+        const world::Cast cast = world::make_cast(host::load_profile_by_name(options.profile), screen);
+        if (!options.only.empty()) {
+            return replay_one(cast, options);
+        }
+        const world::Soaked soaked =
+            world::soak(cast, options.seed, options.steps,
+                        [&](const world::Soaked& so_far) { return years(so_far.time) >= options.years; });
+        print(options.json ? json_of(soaked) : text_of(soaked));
+        return soaked.broken.empty() ? ExitCode::ok : ExitCode::failed;
+    } catch (const behaviour::ProfileError& error) {
+        return complain("soak", ExitCode::bad_input, error.what());
+    }
+}
+
+}  // namespace
+
+void add_soak(CLI::App& app, ExitCode& exit) {
+    CLI::App* command = app.add_subcommand(
+        "soak",
+        "Let a board live for years among peers, disks and powers that misbehave, and see that it keeps "
+        "its promises");
+    const auto options = std::make_shared<SoakOptions>();
+    CLI::Option* profile =
+        command->add_option("PROFILE", options->profile, "A name of `fauxboard profiles`, or a file");
+    command
+        ->add_option("--screen", options->screen,
+                     "Who touches it: a screen of `fauxboard profiles`, or a file")
+        ->type_name("NAME|FILE");
+    command->add_option("--years", options->years, "Of virtual time, at least")
+        ->check(CLI::Range(0.0, 1e6))
+        ->capture_default_str();
+    command->add_option("--seed", options->seed, "Of the first world; the next has the next")
+        ->capture_default_str();
+    command->add_option("--steps", options->steps, "Things that happen in one world")
+        ->check(CLI::Range(1, 1'000'000))
+        ->capture_default_str();
+    command
+        ->add_option("--only", options->only,
+                     "Play these steps of the one seed alone, as a report names them")
+        ->delimiter(',');
+    command->add_flag("--json", options->json, "The result as a JSON object");
+    CLI::Option* promises =
+        command->add_flag("--promises", options->promises, "List what is promised, and end");
+    command->callback([options, profile, promises, &exit] {
+        if (profile->count() == 0 && promises->count() == 0) {
+            throw CLI::RequiredError("PROFILE");
+        }
+        exit = soak(*options);
+    });
+}
+
+}  // namespace fauxboard::tools
