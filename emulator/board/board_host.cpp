@@ -178,7 +178,7 @@ bool Board::begin_command() {
         const std::size_t number = (host.speaker + i) % host_like.size();
         Port& from = ports_[number];
         if (from.commands.empty() || from.output.size() >= output_limit ||
-            !host.ready(number, from.commands.command())) {
+            !host.ready(number, from.commands.command(), time_)) {
             continue;
         }
         const CommandQueue::Head head = from.commands.head();
