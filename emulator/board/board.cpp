@@ -283,7 +283,7 @@ SimTime Board::advance(SimTime now) {
         }
         step(due);
     }
-    return next_due();
+    return held_back_ ? time_ : next_due();
 }
 
 /// Carries out what the machine asks of itself.

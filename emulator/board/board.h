@@ -253,10 +253,11 @@ class Board final : private behaviour::NoticeSink, private machine::FileCommands
     MessageQueue inbox_;   ///< of the main line
     MessageQueue outbox_;  ///< same
     std::optional<Channel>
-        asker_;              ///< whom a frame goes to that does not say it itself; nothing: nobody asked
-    bool unasked_ = false;   ///< a request is the machine's own: nobody is to be answered
-    bool muted_ = false;     ///< a file's command: nobody hears what is for whoever asked
-    bool answered_ = false;  ///< what is being carried out has been acknowledged by its answer
+        asker_;               ///< whom a frame goes to that does not say it itself; nothing: nobody asked
+    bool unasked_ = false;    ///< a request is the machine's own: nobody is to be answered
+    bool held_back_ = false;  ///< commands wait until output has been taken
+    bool muted_ = false;      ///< a file's command: nobody hears what is for whoever asked
+    bool answered_ = false;   ///< what is being carried out has been acknowledged by its answer
     const behaviour::Rule* after_ = nullptr;  ///< of the command that runs: what is said when it is over
     std::vector<char> scratch_;
     std::vector<double> variables_;
