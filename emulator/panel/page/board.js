@@ -89,9 +89,10 @@ export class Board extends EventTarget {
         this.state = {};
         this.pace.real = 0;
         try {
-            const [status, words, now] = await Promise.all([
-                this.op('status'), this.op('describe', {what: ['fields', 'variables', 'actions', 'faults', 'frames']}), this.op('get')]);
-            Object.assign(this.state, now.fields);
+            // One after the other: the words fill all the room that answers have.
+            const status = await this.op('status');
+            Object.assign(this.state, (await this.op('get')).fields);
+            const words = await this.op('describe', {what: ['fields', 'variables', 'actions', 'faults', 'frames']});
             this.status = status;
             this.t = status.t;
             this.link = status.link;
@@ -101,7 +102,9 @@ export class Board extends EventTarget {
             await Promise.all([this.watch_state(), this.op('subscribe', {topic: 'link'}), this.op('subscribe', {topic: 'notices'})]);
             this.tell('begin');
         } catch (error) {
-            if (error.code !== 'lost') throw error;
+            if (error.code === 'lost') return;
+            if (!(error instanceof Refused)) throw error;
+            this.lost();  // and anew
         }
     }
 
