@@ -1,5 +1,6 @@
 #include "tools/control_screen.h"
 
+#include "emulator/control/base64.h"
 #include "emulator/host/profile_files.h"
 #include "emulator/host/screen_files.h"
 #include "emulator/link/host_error.h"
@@ -16,6 +17,15 @@ Json ControlScreen::ask(const Json& request) {
         }
     }
     throw link::HostError("The board's control channel does not answer; is it a board's?");
+}
+
+std::string ControlScreen::png() {
+    const Json answer = ask({{"op", "screenshot"}});
+    const auto bytes = control::from_base64(answer.value("png", ""));
+    if (!bytes || bytes->empty()) {
+        throw link::HostError("The board gives no picture of its screen: " + answer.dump());
+    }
+    return *bytes;
 }
 
 Json ControlScreen::page() {

@@ -19,6 +19,8 @@ class ControlScreen {
 
     /// What the screen shows, as the op `page` tells it. Throws link::HostError when it shows nothing.
     Json page();
+    /// The same as a PNG file.
+    std::string png();
     /// Touches a control of the page, or the box, that is open. Why not; empty when it was done.
     std::string touch(std::string_view control);
     /// Lets the board's time pass.

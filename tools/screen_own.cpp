@@ -252,8 +252,20 @@ class OwnInteractive {
 
 }  // namespace
 
+ExitCode keep_picture(const std::string& file, const std::string& png, ExitCode code) {
+    std::ofstream out(file, std::ios::binary | std::ios::trunc);
+    out << png;
+    out.close();
+    return out ? code
+               : complain("screen", ExitCode::bad_input,
+                          file + " cannot be written. Name a file in a folder of yours.");
+}
+
 ExitCode show_own(const ScreenOptions& options) {
     ControlScreen screen(options.control);
+    if (!options.png.empty()) {
+        return keep_picture(options.png, screen.png(), ExitCode::ok);
+    }
     const Json page = screen.page();
     print(options.json ? page.dump(2) + "\n" : answer_text(page));
     return ExitCode::ok;

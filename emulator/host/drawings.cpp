@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "emulator/control/base64.h"
 #include "emulator/filament/printer.h"
 #include "emulator/machine/disk_source.h"
 #include "emulator/resin/printer.h"
@@ -16,21 +17,6 @@ namespace fauxboard::host {
 namespace {
 
 using control::Json;
-
-std::string base64(const std::string& bytes) {
-    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string out;
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        std::uint32_t three = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            three = three << 8U | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-        }
-        for (std::size_t k = 0; k < 4; ++k) {
-            out += i + k <= bytes.size() ? digits[three >> (18 - 6 * k) & 63U] : '=';
-        }
-    }
-    return out;
-}
 
 /// A picture made small: each pixel is the brightest of those it stands for, so that nothing thin gets lost.
 struct Small {
@@ -61,7 +47,8 @@ std::optional<Small> read_picture(const resin::ResinJob::Place& place) {
     for (std::uint32_t y = 0; rows->next(row); ++y) {
         std::uint8_t* const line = &out.greys[std::size_t{y / by} * out.width];
         for (std::uint32_t x = 0; x < row.size(); ++x) {
-            line[x / by] = std::max(line[x / by], static_cast<std::uint8_t>(std::min<std::uint32_t>(row[x], 255)));
+            line[x / by] =
+                std::max(line[x / by], static_cast<std::uint8_t>(std::min<std::uint32_t>(row[x], 255)));
         }
     }
     return out;
@@ -110,7 +97,10 @@ Json Drawings::way(bool whole) {
     }
     told_ = std::move(now);
     return {{"way",
-             {{"more", !whole}, {"size", {volume[0], volume[1]}}, {"head", std::move(place)}, {"layers", std::move(layers)}}}};
+             {{"more", !whole},
+              {"size", {volume[0], volume[1]}},
+              {"head", std::move(place)},
+              {"layers", std::move(layers)}}}};
 }
 
 Json Drawings::picture(bool whole) {
@@ -132,7 +122,7 @@ Json Drawings::picture(bool whole) {
         if (const auto small = read_picture(*place)) {
             out["width"] = small->width;
             out["height"] = small->height;
-            out["greys"] = base64(small->packed());
+            out["greys"] = control::to_base64(small->packed());
         }
     }
     told_ = std::move(now);
