@@ -7,6 +7,7 @@
 
 #include "emulator/behaviour/action_words.h"
 #include "emulator/behaviour/fields.h"
+#include "emulator/machine/host_side.h"
 #include "emulator/world/steps.h"
 #include "protocol/framing.h"
 
