@@ -23,7 +23,7 @@ Json ControlScreen::page() {
     if (!answer.value("ok", false)) {
         throw link::HostError(answer.value("/error/message"_json_pointer, "The board shows no page."));
     }
-    for (const char* around : {"id", "ok", "notices"}) {
+    for (const char* around : {"id", "ok", "t", "notices"}) {
         answer.erase(around);
     }
     return answer;

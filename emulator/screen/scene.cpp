@@ -103,6 +103,8 @@ class SceneMaker {
         }
         out.whole = figure.whole;
         out.step = figure.step;
+        out.turned = figure.turned;
+        out.painted = figure.kind == Figure::Kind::picture && !figure.paints.empty();
         items().push_back(std::move(out));
     }
 
