@@ -35,6 +35,10 @@ std::string ControlScreen::touch(std::string_view control) {
                                      : answer.value("/error/message"_json_pointer, "It was not touched.");
 }
 
+void ControlScreen::touch(int x, int y) {
+    ask({{"op", "touch"}, {"x", x}, {"y", y}});
+}
+
 void ControlScreen::pass(std::string_view time) {
     ask({{"op", "advance"}, {"by", time}});
 }

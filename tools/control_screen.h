@@ -21,6 +21,8 @@ class ControlScreen {
     Json page();
     /// Touches a control of the page, or the box, that is open. Why not; empty when it was done.
     std::string touch(std::string_view control);
+    /// Touches a pixel.
+    void touch(int x, int y);
     /// Lets the board's time pass.
     void pass(std::string_view time);
     /// The screen's profile, found by the board's.

@@ -256,6 +256,9 @@ const SceneControl* Scene::hit(int x, int y) const {
 }
 
 const SceneControl* Scene::find(std::string_view name) const {
+    if (name.empty()) {
+        return nullptr;
+    }
     for (const auto what : {&SceneControl::name, &SceneControl::label}) {
         const auto found = std::find_if(controls.begin(), controls.end(),
                                         [&](const SceneControl& one) { return one.*what == name; });
