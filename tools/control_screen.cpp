@@ -51,7 +51,11 @@ std::shared_ptr<const screen::ScreenProfile> ControlScreen::profile() {
 
 std::string place_of(const Json& page) {
     const Json& box = page.at("box");
-    return page.value("page", "") + (box.is_object() ? " / " + box.value("caption", "") : "");
+    if (!box.is_object()) {
+        return page.value("page", "");
+    }
+    const std::string text = box.value("text", "");
+    return page.value("page", "") + " / " + box.value("caption", "") + " " + text.substr(0, text.find('\n'));
 }
 
 }  // namespace fauxboard::tools

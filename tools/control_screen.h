@@ -36,7 +36,7 @@ class ControlScreen {
     ControlClient client_;
 };
 
-/// Where a page stands: the page's name, and the box over it: "Files", "Files / Warning!".
+/// Where a page stands: the page's name, and the box over it: "Files", "Files / Warning! Are you sure".
 std::string place_of(const Json& page);
 
 }  // namespace fauxboard::tools

@@ -143,7 +143,11 @@ class SceneMaker {
         out.input = button.input;
         const bool pressed = !dead && layers_.pressed == id && layers_.pressed_row == row;
         face(control, out, scope, pressed);
-        if (!out.label.empty()) scene_.texts.push_back(out.label);
+        if (!out.label.empty()) {
+            scene_.texts.push_back(out.label);
+        } else {
+            out.label = scope.row_text;  // drawn by its figures, and what a person calls it
+        }
         scene_.controls.push_back(std::move(out));
     }
 
