@@ -33,7 +33,7 @@ Json ControlScreen::page() {
     if (!answer.value("ok", false)) {
         throw link::HostError(answer.value("/error/message"_json_pointer, "The board shows no page."));
     }
-    for (const char* around : {"id", "ok", "notices"}) {
+    for (const char* around : {"id", "ok", "t", "notices"}) {
         answer.erase(around);
     }
     return answer;
@@ -43,6 +43,10 @@ std::string ControlScreen::touch(std::string_view control) {
     const Json answer = ask({{"op", "touch"}, {"control", control}});
     return answer.value("ok", false) ? std::string{}
                                      : answer.value("/error/message"_json_pointer, "It was not touched.");
+}
+
+void ControlScreen::touch(int x, int y) {
+    ask({{"op", "touch"}, {"x", x}, {"y", y}});
 }
 
 void ControlScreen::pass(std::string_view time) {
@@ -57,7 +61,11 @@ std::shared_ptr<const screen::ScreenProfile> ControlScreen::profile() {
 
 std::string place_of(const Json& page) {
     const Json& box = page.at("box");
-    return page.value("page", "") + (box.is_object() ? " / " + box.value("caption", "") : "");
+    if (!box.is_object()) {
+        return page.value("page", "");
+    }
+    const std::string text = box.value("text", "");
+    return page.value("page", "") + " / " + box.value("caption", "") + " " + text.substr(0, text.find('\n'));
 }
 
 }  // namespace fauxboard::tools

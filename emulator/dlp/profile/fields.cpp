@@ -1,5 +1,7 @@
 // Print, platform, lamp, panel, files, settings, clock.
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <utility>
@@ -311,15 +313,26 @@ constexpr std::array clock_rows{
     clock_row<&Moment::second>("clock.second", 0, 59, "same"),
 };
 
-/// A parameter of settings files as a field: setup.NAME, as it is in force.
+/// A parameter of settings files as a field: setup.NAME, as it is in force. One that is told in the unit of the
+/// file can be set, too, within the bounds that hold for the file.
 template <std::size_t I>
 Field parameter_row() {
     static const std::string path = "setup." + std::string(parameters()[I].value_name);
     const Parameter& parameter = parameters()[I];
-    return row.shown(path, number, parameter.unit, parameter.help, [](const Printer& p) {
+    const auto get = [](const Printer& p) {
         return parameters()[I].since <= p.board.config().firmware ? parameters()[I].get(p.board.settings)
                                                                   : 0.0;
-    });
+    };
+    if (parameter.value_name != parameter.name) {
+        return row.shown(path, number, parameter.unit, parameter.help, get);
+    }
+    constexpr double most = 1e9;
+    return row.handled(path, number, parameter.unit, -most, most, parameter.help, get,
+                       [](Printer& p, const Value& v) {
+                           static_cast<void>(parameters()[I].take(p.board.settings,
+                                                                  read_number(fmt::format("{:.6f}", v.number)),
+                                                                  p.board.config().firmware));
+                       });
 }
 
 template <std::size_t... I>
