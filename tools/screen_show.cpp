@@ -17,7 +17,7 @@ namespace {
 
 using host::SimTime;
 
-/// Once round the status wheel and some, after the page was opened: what a board says unasked has come.
+/// Once round the schedule and some, after the page was opened: what a board says unasked has come.
 constexpr SimTime fill_time{4'500'000};
 
 class Show final : public ScreenWalk {

@@ -18,7 +18,7 @@
 #include "emulator/board/message_queue.h"
 #include "emulator/board/network_outbox.h"
 #include "emulator/board/output_buffer.h"
-#include "emulator/board/wheel.h"
+#include "emulator/board/schedule_runner.h"
 #include "emulator/machine/machine.h"
 #include "emulator/machine/sim_time.h"
 #include "protocol/chitu_chunk.h"
@@ -247,7 +247,7 @@ class Board final : private behaviour::NoticeSink, private machine::FileCommands
     std::shared_ptr<const behaviour::Profile> profile_;
     Options options_;
     std::unique_ptr<machine::Machine> machine_;
-    Wheel wheel_;
+    ScheduleRunner schedule_;
     std::array<Port, behaviour::channel_count> ports_;
     NetworkOutbox network_;
     MessageQueue inbox_;   ///< of the main line

@@ -133,13 +133,13 @@ void Board::settle(std::optional<Channel> asker) {
         return;
     }
     if (const int rounds = machine_->loop.take_lost_rounds(); rounds > 0) {
-        wheel_.lose_rounds(rounds);
+        schedule_.lose_rounds(rounds);
     }
     if (const SimTime stall = machine_->loop.take_stall(); stall > SimTime{0}) {
-        wheel_.stall(stall);
+        schedule_.stall(stall);
     }
-    if (wheel_.frozen() && !behaviour::all_hold(profile_->schedule.frozen_while, scope())) {
-        wheel_.thaw(time_);
+    if (schedule_.frozen() && !behaviour::all_hold(profile_->schedule.frozen_while, scope())) {
+        schedule_.thaw(time_);
     }
 }
 

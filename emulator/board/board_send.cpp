@@ -53,7 +53,7 @@ void Board::send_to(Channel to, const Send& entry, const Scope& here) {
         Draft draft{at_once ? output.room(short_one ? line_bytes : room_for(frame))
                             : std::span<char>(scratch_)};
         compose(frame, here, draft);
-        wheel_.sent(entry.frame, *machine_);
+        schedule_.sent(entry.frame, *machine_);
         if (!frame.then.empty()) {
             ActionContext context{*machine_, variables_, *this};
             for (const behaviour::ActionCall& call : frame.then) {

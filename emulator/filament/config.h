@@ -29,17 +29,18 @@ struct ProcedureStep {
         probe,        ///< touch the bed here; Z becomes the measured height
         homed,        ///< from here on the axes count as homed
         wait,         ///< stand still
-        lose_rounds,  ///< the status wheel leaves out whole rounds (seen during every G28)
+        lose_rounds,  ///< the schedule leaves out whole rounds (seen during every G28)
         raise,        ///< raise an event
     };
+    // In an order that leaves no gaps: Motion holds 64 of them.
     Kind kind = Kind::wait;
-    AxisTargets values{};              ///< to, by: mm. zero, home, homed: present = axis named
-    double feed_mm_s = 0;              ///< shown as F while it runs; 0 leaves the shown value alone
-    double seconds = -1;               ///< fixed duration; < 0: from distance and feed
-    int rounds = 0;                    ///< lose_rounds
+    bool reference = false;  ///< probe: what it touches here is what heights count from, as when homing Z
+    int rounds = 0;          ///< lose_rounds
+    AxisTargets values{};    ///< to, by: mm. zero, home, homed: present = axis named
+    double feed_mm_s = 0;    ///< shown as F while it runs; 0 leaves the shown value alone
+    double seconds = -1;     ///< fixed duration; < 0: from distance and feed
     machine::EventId event = nullptr;  ///< raise
     int mesh_point = -1;               ///< probe: what it measures is that point of the mesh, 0 to 8
-    bool reference = false;  ///< probe: what it touches here is what heights count from, as when homing Z
 };
 using Procedure = std::vector<ProcedureStep>;
 

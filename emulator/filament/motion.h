@@ -9,8 +9,8 @@
 #include "emulator/filament/config.h"
 #include "emulator/filament/names.h"
 #include "emulator/filament/planner.h"
-#include "emulator/filament/travel.h"
 #include "emulator/filament/state.h"
+#include "emulator/filament/travel.h"
 
 namespace fauxboard::filament {
 
@@ -85,7 +85,8 @@ class Motion {
     void set_motors(bool on);
     bool motors() const { return motors_ && !faults_.dead_motors; }
     MotionFaults& faults() { return faults_; }
-    /// Told of each move of a job in the plane when it has been done, from inside advance(); must not call back.
+    /// Told of each move of a job in the plane when it has been done, from inside advance(); must not call
+    /// back.
     void on_travel(std::function<void(const Travel&)> told) { travelled_ = std::move(told); }
     /// Filament that the extruder was turned for since the machine was made, mm.
     double extruded_mm() const { return extruded_; }
@@ -114,7 +115,7 @@ class Motion {
     Mesh mesh;
     /// The point that was probed last: where the probe touched, and the height it found there, mm.
     const std::array<double, 3>& probed_mm() const { return probed_; }
-    /// Rounds that the status wheel is to leave out; asking takes them.
+    /// Rounds that the schedule is to leave out; asking takes them.
     int take_lost_rounds();
 
   private:

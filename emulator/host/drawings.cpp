@@ -11,7 +11,7 @@
 #include "emulator/filament/printer.h"
 #include "emulator/machine/disk_source.h"
 #include "emulator/resin/printer.h"
-#include "emulator/sliced/picture_rows.h"
+#include "emulator/sliced/scanlines.h"
 
 namespace fauxboard::host {
 namespace {
@@ -36,15 +36,15 @@ struct Small {
 
 std::optional<Small> read_picture(const resin::ResinJob::Place& place) {
     const machine::DiskSource source(place.disk, place.path);
-    auto rows = sliced::PictureRows::of_layer(place.file, source, place.layer);
-    if (!rows || rows->width() == 0 || rows->height() == 0) {
+    auto lines = sliced::Scanlines::of_layer(place.file, source, place.layer);
+    if (!lines || lines->width() == 0 || lines->height() == 0) {
         return std::nullopt;
     }
-    const std::uint32_t by = std::max(rows->width(), rows->height()) / Drawings::most_side + 1;
-    Small out{(rows->width() + by - 1) / by, (rows->height() + by - 1) / by, {}};
+    const std::uint32_t by = std::max(lines->width(), lines->height()) / Drawings::most_side + 1;
+    Small out{(lines->width() + by - 1) / by, (lines->height() + by - 1) / by, {}};
     out.greys.resize(std::size_t{out.width} * out.height);
-    std::vector<std::uint32_t> row(rows->width());
-    for (std::uint32_t y = 0; rows->next(row); ++y) {
+    std::vector<std::uint32_t> row(lines->width());
+    for (std::uint32_t y = 0; lines->next(row); ++y) {
         std::uint8_t* const line = &out.greys[std::size_t{y / by} * out.width];
         for (std::uint32_t x = 0; x < row.size(); ++x) {
             line[x / by] =
