@@ -19,8 +19,12 @@ class ControlScreen {
 
     /// What the screen shows, as the op `page` tells it. Throws link::HostError when it shows nothing.
     Json page();
+    /// The same as a PNG file.
+    std::string png();
     /// Touches a control of the page, or the box, that is open. Why not; empty when it was done.
     std::string touch(std::string_view control);
+    /// Touches a pixel.
+    void touch(int x, int y);
     /// Lets the board's time pass.
     void pass(std::string_view time);
     /// The screen's profile, found by the board's.
@@ -34,7 +38,7 @@ class ControlScreen {
     ControlClient client_;
 };
 
-/// Where a page stands: the page's name, and the box over it: "Files", "Files / Warning!".
+/// Where a page stands: the page's name, and the box over it: "Files", "Files / Warning! Are you sure".
 std::string place_of(const Json& page);
 
 }  // namespace fauxboard::tools

@@ -111,7 +111,7 @@ ExitCode one_request(const Ctl& ctl, ControlClient& client) {
         return keep_picture(ctl, answer);
     }
     if (code == ExitCode::ok && ctl.json && ctl.request.value("op", "") == "page") {
-        for (const char* around : {"id", "ok", "notices"}) {
+        for (const char* around : {"id", "ok", "t", "notices"}) {
             answer.erase(around);
         }
         print(answer.dump() + "\n");

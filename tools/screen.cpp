@@ -62,7 +62,10 @@ void add_screen(CLI::App& app, ExitCode& exit) {
 
     CLI::App* page = add(*command, options, exit, "show", "Open a page, and print it", show, show_own);
     page->add_option("PAGE", options.page, "Its path, or the end of it (Main)")->type_name("");
-    page->add_flag("--json", options.json, "The page as one JSON object");
+    CLI::Option* json = page->add_flag("--json", options.json, "The page as one JSON object");
+    page->add_option("--png", options.png, "Draw it instead, as the screen does")
+        ->type_name("FILE.png")
+        ->excludes(json);
 
     add(*command, options, exit, "interactive", "Show the pages in the terminal, with keyboard and mouse",
         interactive, interactive_own);

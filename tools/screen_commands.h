@@ -15,6 +15,8 @@ ExitCode interactive(const ScreenOptions& options);
 ExitCode press_own(const ScreenOptions& options);
 ExitCode tour_own(const ScreenOptions& options);
 ExitCode show_own(const ScreenOptions& options);
+/// Writes a picture; `code` when that went well.
+ExitCode keep_picture(const std::string& file, const std::string& png, ExitCode code);
 ExitCode interactive_own(const ScreenOptions& options);
 
 }  // namespace fauxboard::tools

@@ -23,6 +23,7 @@ struct ScreenOptions {
     bool verbose = false;
     std::vector<std::string> buttons;  ///< press
     std::string page = "Main";         ///< show
+    std::string png;                   ///< show: file; empty: as text
     std::string junit;                 ///< tour: file; empty: none
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -69,7 +70,7 @@ class OwnTour {
             if (!seen_.contains(name_of(page))) {
                 screen::TourResult result;
                 result.button = page.path;
-                result.sentence = "no touch of this tour led to it";
+                result.sentence = page.path + ": no touch of this tour led to it";
                 out.push_back(std::move(result));
             }
         }
@@ -88,8 +89,11 @@ class OwnTour {
         Json page = screen_.page();
         for (int i = 0; i < most_waits && page.at("controls").empty(); ++i) {
             note(page);
-            const bool covered = !page.at("box").is_object() && i > 2;
-            covered ? static_cast<void>(screen_.touch("")) : screen_.pass(wait_step);
+            if (!page.at("box").is_object() && i > 2) {
+                screen_.touch(1, 1);  // a screensaver goes at any touch
+            } else {
+                screen_.pass(wait_step);
+            }
             page = screen_.page();
         }
         note(page);
@@ -115,68 +119,96 @@ class OwnTour {
         });
     }
 
+    /// What was done to a control of a place: how often, and what the page read then.
+    struct Touches {
+        int times = 0;
+        std::size_t texts = 0;
+    };
+    /// The same control may be another one where the page reads otherwise: another file, another number.
+    static constexpr int most_times = 2;
+
+    static std::string key_of(const Json& control) {
+        return control.value("name", "") + "\n" + control.value("label", "");
+    }
+    static std::size_t texts_of(const Json& page) { return std::hash<std::string>{}(page.at("texts").dump()); }
+
+    bool worth_touching(const std::string& place, const std::string& key, std::size_t texts) {
+        const Touches& done = touched_[place][key];
+        return done.times == 0 || (done.times < most_times && done.texts != texts);
+    }
+
     /// The control to touch: one that was not, those that lead away last; else one on the way to some.
-    std::optional<std::string> choose(const Json& page) {
+    std::optional<Json> choose(const Json& page) {
         const std::string place = place_of(page);
-        std::vector<std::string> untouched;
-        std::vector<std::string> enabled;
+        std::vector<Json> untouched;
+        std::vector<Json> enabled;
         for (const Json& control : page.at("controls")) {
-            const std::string name = control.value("name", "");
+            Touches& done = touched_[place][key_of(control)];
             if (!control.value("enabled", true)) {
-                if (touched_[place].insert(name).second) {
-                    outcomes_.push_back({place, name, place, {}});
-                }
+                if (done.times++ == 0) outcomes_.push_back({place, control.value("name", ""), place, {}});
                 continue;
             }
-            enabled.push_back(name);
-            if (!touched_[place].contains(name)) untouched.push_back(name);
+            enabled.push_back(control);
+            if (worth_touching(place, key_of(control), texts_of(page))) untouched.push_back(control);
         }
         open_[place] = untouched.size();
         for (const bool leaving : {false, true}) {
-            for (const std::string& name : untouched) {
-                if ((name == "Back" || name == "OK" || name == "Yes") == leaving) return name;
+            for (const Json& control : untouched) {
+                const std::string name = control.value("name", "");
+                if ((name == "Back" || name == "OK" || name == "Yes") == leaving) return control;
             }
         }
         return way_on(place, enabled);
     }
 
     /// The least used control that once led to a place from which there is still something to do.
-    std::optional<std::string> way_on(const std::string& place, const std::vector<std::string>& enabled) {
-        std::map<std::string, std::string> first{{place, ""}};
-        std::vector<std::string> queue{place};
+    std::optional<Json> way_on(const std::string& place, const std::vector<Json>& enabled) {
+        std::map<std::string, const Json*> first;  // of each place: the control here that begins the way there
+        std::vector<std::string> queue;
+        for (const Json& control : enabled) {
+            const auto way = ways_[place].find(key_of(control));
+            if (way != ways_[place].end() && way->second != place && first.emplace(way->second, &control).second) {
+                queue.push_back(way->second);
+            }
+        }
         for (std::size_t i = 0; i < queue.size(); ++i) {
-            if (i > 0 && open_[queue[i]] > 0) return first[queue[i]];
-            for (const auto& [control, to] : ways_[queue[i]]) {
-                const bool here =
-                    i > 0 || std::find(enabled.begin(), enabled.end(), control) != enabled.end();
-                if (here && first.emplace(to, i == 0 ? control : first[queue[i]]).second) queue.push_back(to);
+            const std::string here = queue[i];
+            if (open_[here] > 0) return *first[here];
+            for (const auto& [key, to] : ways_[here]) {
+                if (to != place && first.emplace(to, first[here]).second) queue.push_back(to);
             }
         }
         return std::nullopt;
     }
 
-    void touch(const Json& page, const std::string& control) {
+    void touch(const Json& page, const Json& control) {
         const std::string from = place_of(page);
-        Outcome outcome{from, control, {}, screen_.touch(control)};
-        const Json after = screen_.page();
-        outcome.to = place_of(after);
+        const std::string name = control.value("name", "");
+        Outcome outcome{from, name, {}, screen_.touch(name)};
+        outcome.to = place_of(screen_.page());
         const std::string settled = place_of(settle());
-        if (touched_[from].insert(control).second) {
+        Touches& done = touched_[from][key_of(control)];
+        if (done.times < most_times) {
+            ++done.times;
+            done.texts = texts_of(page);
             open_[from] -= open_[from] > 0 ? 1 : 0;
-            outcomes_.push_back(outcome);
+            const bool known = std::any_of(outcomes_.begin(), outcomes_.end(), [&](const Outcome& one) {
+                return one.from == from && one.control == name && one.to == outcome.to;
+            });
+            if (!known) outcomes_.push_back(outcome);
         }
         if (settled != from) {
-            ways_[from][control] = settled;
+            ways_[from][key_of(control)] = settled;
             open_.emplace(settled, 1);  // until it has been looked at
         } else {
-            ways_[from].erase(control);
+            ways_[from].erase(key_of(control));
         }
     }
 
     ControlScreen& screen_;
     std::shared_ptr<const screen::ScreenProfile> profile_;
     std::set<std::string> seen_;
-    std::map<std::string, std::set<std::string>> touched_;
+    std::map<std::string, std::map<std::string, Touches>> touched_;
     std::map<std::string, std::map<std::string, std::string>> ways_;
     std::map<std::string, std::size_t> open_;  ///< controls not touched yet, by place
     std::vector<Outcome> outcomes_;
@@ -252,8 +284,20 @@ class OwnInteractive {
 
 }  // namespace
 
+ExitCode keep_picture(const std::string& file, const std::string& png, ExitCode code) {
+    std::ofstream out(file, std::ios::binary | std::ios::trunc);
+    out << png;
+    out.close();
+    return out ? code
+               : complain("screen", ExitCode::bad_input,
+                          file + " cannot be written. Name a file in a folder of yours.");
+}
+
 ExitCode show_own(const ScreenOptions& options) {
     ControlScreen screen(options.control);
+    if (!options.png.empty()) {
+        return keep_picture(options.png, screen.png(), ExitCode::ok);
+    }
     const Json page = screen.page();
     print(options.json ? page.dump(2) + "\n" : answer_text(page));
     return ExitCode::ok;

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "emulator/drawing/draw.h"
+#include "emulator/drawing/png.h"
 #include "emulator/screen/page_view.h"
+#include "emulator/screen/scene.h"
 #include "emulator/screen/screen_json.h"
 #include "emulator/screen/tour_report.h"
 #include "tools/report.h"
@@ -14,7 +17,7 @@ namespace {
 
 using host::SimTime;
 
-/// Once round the status wheel and some, after the page was opened: what a board says unasked has come.
+/// Once round the schedule and some, after the page was opened: what a board says unasked has come.
 constexpr SimTime fill_time{4'500'000};
 
 class Show final : public ScreenWalk {
@@ -99,9 +102,12 @@ ExitCode show(const ScreenOptions& options) {
         return code;
     }
     const auto missing = user.missing();
+    screen::Standpoint at = screen.standpoint();
+    at.page = *meant.page;
+    if (!options.png.empty()) {
+        return keep_picture(options.png, drawing::png_bytes(drawing::draw(screen::scene_of(at))), code);
+    }
     if (options.json) {
-        screen::Standpoint at = screen.standpoint();
-        at.page = *meant.page;
         print(screen::page_json(at, missing, screen.findings()));
         return code;
     }

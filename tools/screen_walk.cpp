@@ -6,9 +6,9 @@ namespace {
 using host::SimTime;
 
 /// By then the boot messages of a board that was switched on with the screen are over, and a board that does
-/// not know the screen has asked it, once round its status wheel, and has replied to the answer.
+/// not know the screen has asked it, once round its schedule, and has replied to the answer.
 constexpr SimTime after_first_word{2'300'000};
-/// A board that says anything unasked has said it by then: once round its status wheel.
+/// A board that says anything unasked has said it by then: once round its schedule.
 constexpr SimTime first_word{2'500'000};
 
 }  // namespace

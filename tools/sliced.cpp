@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "emulator/link/host_error.h"
-#include "emulator/sliced/picture_rows.h"
+#include "emulator/sliced/scanlines.h"
 #include "tools/file_source.h"
 #include "tools/png_file.h"
 #include "tools/report.h"
@@ -23,7 +23,7 @@ namespace fauxboard::tools {
 namespace {
 
 using link::HostError;
-using sliced::PictureRows;
+using sliced::Scanlines;
 using sliced::SlicedFile;
 
 struct SlicedOptions {
@@ -84,35 +84,35 @@ void tell(const SlicedOptions& options, const SlicedFile& file, const FileSource
     }
 }
 
-PictureRows rows_of(const SlicedOptions& options, const SlicedFile& file, const FileSource& source) {
+Scanlines scanlines_of(const SlicedOptions& options, const SlicedFile& file, const FileSource& source) {
     if (options.layer) {
-        return need(options, PictureRows::of_layer(file, source, *options.layer));
+        return need(options, Scanlines::of_layer(file, source, *options.layer));
     }
     const auto& preview =
         options.preview == "large" ? file.header().large_preview : file.header().small_preview;
     if (!preview) {
         wrong_file(options, fmt::format("It has no {} preview.", options.preview));
     }
-    return PictureRows::of_preview(*preview, source);
+    return Scanlines::of_preview(*preview, source);
 }
 
 /// Says whether the whole picture can be read, before a file is made of it.
-void check_rows(const SlicedOptions& options, PictureRows rows) {
-    std::vector<std::uint32_t> row(rows.width());
-    while (rows.next(row)) {
+void check_scanlines(const SlicedOptions& options, Scanlines lines) {
+    std::vector<std::uint32_t> row(lines.width());
+    while (lines.next(row)) {
     }
-    if (!rows.problem().empty()) {
-        wrong_file(options, rows.problem());
+    if (!lines.problem().empty()) {
+        wrong_file(options, lines.problem());
     }
 }
 
 void write_picture(const SlicedOptions& options, const SlicedFile& file, const FileSource& source) {
-    check_rows(options, rows_of(options, file, source));
-    PictureRows rows = rows_of(options, file, source);
-    std::vector<std::uint32_t> values(rows.width());
+    check_scanlines(options, scanlines_of(options, file, source));
+    Scanlines lines = scanlines_of(options, file, source);
+    std::vector<std::uint32_t> values(lines.width());
     const bool colour = !options.layer;
-    const PngPicture picture{rows.width(), rows.height(), colour, false, [&](std::span<unsigned char> out) {
-                                 const bool more = rows.next(values);
+    const PngPicture picture{lines.width(), lines.height(), colour, false, [&](std::span<unsigned char> out) {
+                                 const bool more = lines.next(values);
                                  std::size_t at = 0;
                                  for (const std::uint32_t value : values) {
                                      for (int shift = colour ? 16 : 0; shift >= 0; shift -= 8) {
@@ -122,10 +122,10 @@ void write_picture(const SlicedOptions& options, const SlicedFile& file, const F
                                  return more;
                              }};
     if (!write_png(options.png, picture)) {
-        wrong_file(options, rows.problem());
+        wrong_file(options, lines.problem());
     }
-    print(options.json ? line({{"png", options.png}, {"width", rows.width()}, {"height", rows.height()}})
-                       : fmt::format("{}: {} x {} pixels\n", options.png, rows.width(), rows.height()));
+    print(options.json ? line({{"png", options.png}, {"width", lines.width()}, {"height", lines.height()}})
+                       : fmt::format("{}: {} x {} pixels\n", options.png, lines.width(), lines.height()));
 }
 
 ExitCode sliced(const SlicedOptions& options) {

@@ -187,7 +187,7 @@ constexpr std::array table{
         "heard or said until a reset",
         {},
         [](ActionContext& c, Args) { c.machine.kill(); }},
-    ActionInfo{"board.stall", "", "the main loop, and with it the status wheel, stands still for a time",
+    ActionInfo{"board.stall", "", "the main loop, and with it the schedule, stands still for a time",
                stall_args, board_stall},
     ActionInfo{"board.reset",
                "board reset",

@@ -105,6 +105,8 @@ struct FieldRows {
 
     template <class Get>
     static Value getter(const machine::Machine& machine) {
+        // Only its type is kept: a function's name would be a pointer to nothing here.
+        static_assert(std::is_empty_v<Get>, "a lambda is wanted");
         const M* own = of(machine);
         return own != nullptr ? as_value(Get{}(*own)) : Value{};
     }

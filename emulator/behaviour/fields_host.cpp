@@ -19,7 +19,7 @@ constexpr FieldRows<Machine> row;
 constexpr std::array<std::string_view, 4> restarts{"PowerUp", " External Reset", " Brown out Reset",
                                                    " Watchdog Reset"};
 /// CRC-16 (0x1021) of what the EEPROM holds, as Marlin counts it.
-double image_crc(const Machine& p) {
+constexpr auto image_crc = [](const Machine& p) {
     unsigned crc = 0;
     for (const char byte : p.eeprom_image.text()) {
         crc ^= static_cast<unsigned>(static_cast<unsigned char>(byte)) << 8U;
@@ -28,7 +28,7 @@ double image_crc(const Machine& p) {
         }
     }
     return crc;
-}
+};
 
 constexpr std::array table{
     row.shown("host.last_line", integer, "", "number of the last good line of the USB side",
@@ -64,7 +64,8 @@ constexpr std::array table{
               [](const Machine& p) { return std::string_view{p.storage.looked_up}; }),
     row.shown("eeprom.bytes", integer, "bytes", "size of what the EEPROM holds",
               [](const Machine& p) { return p.eeprom_image.size(); }),
-    row.shown("eeprom.crc", integer, "", "CRC-16 of what the EEPROM holds", image_crc),
+    row.shown("eeprom.crc", integer, "", "CRC-16 of what the EEPROM holds",
+              [](const Machine& p) { return image_crc(p); }),
     row.shown("eeprom.saved", boolean, "", "the EEPROM holds something else than the factory's settings",
               [](const Machine& p) { return p.eeprom_image.text() != p.factory_image; }),
     row.shown("board.restart", text, "",

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <vector>
 
+#include "emulator/behaviour/machine_loader.h"
 #include "emulator/behaviour/nearest.h"
 
 namespace fauxboard::behaviour {
+
+namespace {
 
 const KindRow& kind_of(const Json& machine, const std::string& pointer, Findings& findings) {
     const auto all = kinds();
@@ -36,6 +39,24 @@ const KindRow& kind_of(const Json& machine, const std::string& pointer, Findings
         }
     }
     return *all.front();
+}
+
+}  // namespace
+
+LoadedMachine load_machine(const Json* node, const std::string& pointer, Findings& findings) {
+    if (node == nullptr) {
+        return {&kinds().front()->machine, kinds().front()->config()};
+    }
+    const KindRow& kind = kind_of(*node, pointer, findings);
+    const LoadedMachine loaded{&kind.machine, kind.config()};
+    ObjectReader reader(*node, pointer, findings);
+    reader.get("kind");  // looked at already
+    load_common(reader, findings, *loaded.config);
+    for (const KindRow* each : kinds()) {
+        each->load(reader, findings, each == &kind ? *loaded.config : *each->config());
+    }
+    reader.finish();
+    return loaded;
 }
 
 }  // namespace fauxboard::behaviour

@@ -29,8 +29,14 @@ struct KindRow {
 /// One for each of machine::kinds(), in that order.
 std::span<const KindRow* const> kinds();
 
-/// The kind that a profile's `machine` is of: `kind` says it; else the one that has a section of its name;
-/// else the first. A name that no kind has is added to the findings.
-const KindRow& kind_of(const Json& machine, const std::string& pointer, Findings& findings);
+/// What a profile's `machine` says; `node` is null when it says nothing.
+///
+/// The kind is what `kind` says; else the one that has a section of its name; else the first. Keys of other
+/// kinds are checked and have no effect: a base may have them.
+struct LoadedMachine {
+    const machine::Kind* kind;
+    std::shared_ptr<machine::MachineConfig> config;
+};
+LoadedMachine load_machine(const Json* node, const std::string& pointer, Findings& findings);
 
 }  // namespace fauxboard::behaviour

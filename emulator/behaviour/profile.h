@@ -78,7 +78,7 @@ struct Frame {
         watched;  ///< fields some slot compares with their values when this was last sent
 };
 
-/// One slot of the status wheel.
+/// One slot of the schedule.
 struct Slot {
     std::optional<std::size_t> frame;  ///< nothing: an empty slot
     std::vector<Condition> when;

@@ -33,7 +33,6 @@ class Loader {
     void load_slot(const Json& node, const std::string& pointer);
     std::vector<std::size_t> watch(const Json& node, const std::string& pointer, std::size_t frame);
     void load_requests(const Json& node, const std::string& pointer, Profile::RequestTable& table);
-    void load_machine(ObjectReader& root);
     void load_events(const Json& node, const std::string& pointer);
     void load_defaults(const Json& node, const std::string& pointer);
 
@@ -233,29 +232,6 @@ void Loader::load_requests(const Json& node, const std::string& pointer, Profile
     }
 }
 
-/// The machine's kind, which all that follows depends on, and its configuration.
-void Loader::load_machine(ObjectReader& root) {
-    const Json nothing = Json::object();
-    const Json* node = root.get("machine");
-    const std::string pointer = root.pointer("machine");
-    const KindRow& kind = kind_of(node != nullptr ? *node : nothing, pointer, findings_);
-    profile_->kind = &kind.machine;
-    machine_ = kind.config();
-    if (node != nullptr) {
-        ObjectReader reader(*node, pointer, findings_);
-        load_common(reader, findings_, *machine_);
-        kind.load(reader, findings_, *machine_);
-        reader.get("kind");  // looked at already
-        // A base may say what only another kind has: that is checked, and has no effect.
-        for (const KindRow* other : kinds()) {
-            if (other != &kind) {
-                other->load(reader, findings_, *other->config());
-            }
-        }
-        reader.finish();
-    }
-}
-
 void Loader::load_events(const Json& node, const std::string& pointer) {
     RuleCompiler compiler(findings_, names_, frame_index_, *machine_);
     ObjectReader reader(node, pointer, findings_);
@@ -285,7 +261,9 @@ std::shared_ptr<const Profile> Loader::load() {
             load(*node, root.pointer(key));
         }
     };
-    load_machine(root);
+    const LoadedMachine machine = load_machine(root.get("machine"), root.pointer("machine"), findings_);
+    profile_->kind = machine.kind;
+    machine_ = machine.config;
     section("identity",
             [&](const Json& n, const std::string& p) { load_identity(n, p, findings_, machine_->identity); });
     section("variables", [&](const Json& n, const std::string& p) { load_variables(n, p); });

@@ -39,7 +39,7 @@ Board::Board(std::shared_ptr<const behaviour::Profile> profile, machine::Service
     : profile_(std::move(profile)),
       options_(options),
       machine_(profile_->kind->make(profile_->machine, services, options.seed)),
-      wheel_(*profile_),
+      schedule_(*profile_),
       inbox_(inbox_bytes, profile_->line.queue_lines),
       outbox_(outbox_bytes, outbox_messages),
       codes_(profile_->queue_codes, profile_->code_cells),
@@ -107,8 +107,8 @@ void Board::power_on(SimTime now) {
     }
     behaviour::load_fields(*machine_, {}, &kept);
     machine_->events.clear();  // what setting up raised is nobody's business
-    wheel_.power_on(now);
-    wheel_.take_as_told(*machine_);
+    schedule_.power_on(now);
+    schedule_.take_as_told(*machine_);
     for (const Send& entry : profile_->boot) {
         send(entry, scope());
     }
@@ -133,7 +133,7 @@ void Board::reload(std::shared_ptr<const behaviour::Profile> profile) {
     }
     profile_ = std::move(profile);
     variables_ = std::move(variables);
-    wheel_.reload(*profile_, time_);
+    schedule_.reload(*profile_, time_);
     codes_ = CodeQueue(profile_->queue_codes, profile_->code_cells);
     held_ = {};
     told_.clear();
@@ -258,25 +258,26 @@ SimTime Board::next_due() const {
     if (machine_->hung()) {
         return machine_->next_event();
     }
-    const SimTime wheel =
-        wheel_.next_slot() <= time_ ? wheel_.next_slot() : wheel_.next_due(scope(), machine_->restless());
-    return std::min({machine_->next_event(), next_tick(), wheel, unfinished_due_, front_due()});
+    const SimTime slot = schedule_.next_slot() <= time_ ? schedule_.next_slot()
+                                                        : schedule_.next_due(scope(), machine_->restless());
+    return std::min({machine_->next_event(), next_tick(), slot, unfinished_due_, front_due()});
 }
 
-/// A time before which nothing is due, found without asking which of the wheel's slots may send.
+/// A time before which nothing is due, found without asking which of the schedule's slots may send.
 SimTime Board::nothing_before() const {
     if (machine_->hung()) {
         return machine_->next_event();
     }
-    return std::min({machine_->next_event(), next_tick(), wheel_.next_slot(), unfinished_due_, front_due()});
+    return std::min(
+        {machine_->next_event(), next_tick(), schedule_.next_slot(), unfinished_due_, front_due()});
 }
 
 /// Goes through the slots before `end`. Those passed over because nothing could come of them are among them,
 /// for their rounds to count.
 void Board::run_slots(SimTime end) {
-    while (!machine_->hung() && wheel_.next_slot() < end &&
+    while (!machine_->hung() && schedule_.next_slot() < end &&
            port(Channel::main).output.size() < output_limit) {
-        const behaviour::Slot* slot = wheel_.turn(scope());
+        const behaviour::Slot* slot = schedule_.turn(scope());
         if (slot != nullptr) {
             Send entry;
             entry.frame = *slot->frame;
@@ -315,7 +316,7 @@ SimTime Board::advance(SimTime now) {
         }
         step(due);
     }
-    return next_due();
+    return held_back_ ? time_ : next_due();
 }
 
 /// Carries out what the machine asks of itself.

@@ -20,7 +20,7 @@
 #include "emulator/board/network_outbox.h"
 #include "emulator/board/output_buffer.h"
 #include "emulator/board/ring_intake.h"
-#include "emulator/board/wheel.h"
+#include "emulator/board/schedule_runner.h"
 #include "emulator/machine/machine.h"
 #include "emulator/machine/sim_time.h"
 #include "protocol/chitu_chunk.h"
@@ -255,7 +255,7 @@ class Board final : private behaviour::NoticeSink, private machine::FileCommands
     std::shared_ptr<const behaviour::Profile> profile_;
     Options options_;
     std::unique_ptr<machine::Machine> machine_;
-    Wheel wheel_;
+    ScheduleRunner schedule_;
     std::array<Port, behaviour::channel_count> ports_;
     NetworkOutbox network_;
     MessageQueue inbox_;   ///< of the main line
@@ -269,10 +269,11 @@ class Board final : private behaviour::NoticeSink, private machine::FileCommands
     };
     Held held_;
     std::optional<Channel>
-        asker_;              ///< whom a frame goes to that does not say it itself; nothing: nobody asked
-    bool unasked_ = false;   ///< a request is the machine's own: nobody is to be answered
-    bool muted_ = false;     ///< a file's command: nobody hears what is for whoever asked
-    bool answered_ = false;  ///< what is being carried out has been acknowledged by its answer
+        asker_;               ///< whom a frame goes to that does not say it itself; nothing: nobody asked
+    bool unasked_ = false;    ///< a request is the machine's own: nobody is to be answered
+    bool held_back_ = false;  ///< commands wait until output has been taken
+    bool muted_ = false;      ///< a file's command: nobody hears what is for whoever asked
+    bool answered_ = false;   ///< what is being carried out has been acknowledged by its answer
     const behaviour::Rule* after_ = nullptr;  ///< of the command that runs: what is said when it is over
     std::vector<char> scratch_;
     std::vector<double> variables_;

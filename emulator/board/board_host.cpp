@@ -142,6 +142,7 @@ void Board::complain(Channel channel, EventId what) {
 /// Ends the command that is over, begins the next that may begin, and so on.
 void Board::run_host() {
     machine::HostSide& host = machine_->host_side();
+    held_back_ = false;
     while (!machine_->hung()) {
         if (!host.running()) {
             if (!begin_command()) {
@@ -150,7 +151,8 @@ void Board::run_host() {
             continue;
         }
         const auto channel = static_cast<Channel>(host.speaker);
-        if (host.under_way(machine_->now()) || port(channel).output.size() >= output_limit) {
+        held_back_ = port(channel).output.size() >= output_limit;
+        if (held_back_ || host.under_way(machine_->now())) {
             return;
         }
         say_after();
@@ -177,8 +179,9 @@ bool Board::begin_command() {
     for (std::size_t i = 1; i <= host_like.size(); ++i) {
         const std::size_t number = (host.speaker + i) % host_like.size();
         Port& from = ports_[number];
+        held_back_ = held_back_ || (!from.commands.empty() && from.output.size() >= output_limit);
         if (from.commands.empty() || from.output.size() >= output_limit ||
-            !host.ready(number, from.commands.command())) {
+            !host.ready(number, from.commands.command(), time_)) {
             continue;
         }
         const CommandQueue::Head head = from.commands.head();

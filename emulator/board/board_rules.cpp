@@ -161,13 +161,13 @@ void Board::settle(std::optional<Channel> asker) {
     }
     end_held();
     if (const int rounds = machine_->loop.take_lost_rounds(); rounds > 0) {
-        wheel_.lose_rounds(rounds);
+        schedule_.lose_rounds(rounds);
     }
     if (const SimTime stall = machine_->loop.take_stall(); stall > SimTime{0}) {
-        wheel_.stall(stall);
+        schedule_.stall(stall);
     }
-    if (wheel_.frozen() && !profile_->schedule.frozen(scope())) {
-        wheel_.thaw(time_);
+    if (schedule_.frozen() && !profile_->schedule.frozen(scope())) {
+        schedule_.thaw(time_);
     }
 }
 

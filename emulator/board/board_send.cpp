@@ -98,7 +98,7 @@ bool Board::put_in_queue(std::string_view message) {
 
 /// What the board remembers of a frame that it has put together.
 void Board::said(std::size_t frame, const Scope& here) {
-    wheel_.sent(frame, *machine_);
+    schedule_.sent(frame, *machine_);
     if (profile_->frames[frame].then.empty()) {
         return;
     }

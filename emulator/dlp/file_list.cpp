@@ -42,6 +42,11 @@ std::string_view to_string(FileKind kind) {
 }
 
 void FileList::refresh() {
+    read();
+    shown_ = "/" + folder_;
+}
+
+void FileList::read() {
     files_.clear();
     std::vector<StickEntry> entries;
     if (!stick_.present() || !stick_.list(folder_, entries)) {

@@ -34,6 +34,8 @@ class FileList {
     const std::vector<ListedFile>& files() const { return files_; }
     /// "" at the root, else "dir/" or "dir/sub/".
     const std::string& folder() const { return folder_; }
+    /// The same as the board shows it, with a '/' before it.
+    const std::string& shown() const { return shown_; }
     /// The listed file of that name, or null.
     const ListedFile* find(std::string_view name) const;
     /// Folder and name.
@@ -41,9 +43,12 @@ class FileList {
 
   private:
     static constexpr std::size_t most_files = 4096;
+    void read();
+
     const Stick& stick_;
     bool ctb_;
     std::string folder_;
+    std::string shown_ = "/";
     std::vector<ListedFile> files_;
 };
 

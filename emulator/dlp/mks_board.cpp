@@ -241,7 +241,7 @@ bool MksBoard::view(std::string_view name) {
     if (listed == nullptr || listed->kind != FileKind::print) {
         return false;
     }
-    view_ = {listed->entry.name, files.path_of(name), listed->entry.bytes, listed->entry.modified_s, {}, {}};
+    view_ = {listed->entry.name, files.path_of(name), listed->entry.bytes, listed->date, {}, {}};
     const auto source = stick_.open(view_.path);
     if (!source) {
         view_.problem = "There is no such file, or it cannot be read.";

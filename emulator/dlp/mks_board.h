@@ -66,7 +66,7 @@ class MksBoard final : private Listener {
         std::string name;
         std::string path;
         std::uint64_t bytes = 0;
-        std::int64_t modified_s = 0;
+        std::string date;  ///< see date_text()
         std::optional<PrintFile> file;
         std::string problem;
     };

@@ -1,6 +1,6 @@
 #include "emulator/dlp/previews.h"
 
-#include "emulator/sliced/picture_rows.h"
+#include "emulator/sliced/scanlines.h"
 
 namespace fauxboard::dlp {
 
@@ -14,7 +14,7 @@ void Previews::read(const sliced::ByteSource& source) const {
     if (!preview || std::uint64_t{preview->width} * preview->height > most_pixels) {
         return;
     }
-    sliced::PictureRows rows = sliced::PictureRows::of_preview(*preview, source);
+    sliced::Scanlines rows = sliced::Scanlines::of_preview(*preview, source);
     std::vector<std::uint32_t> row(preview->width);
     while (rows.next(row)) {
         pixels_.rgb.insert(pixels_.rgb.end(), row.begin(), row.end());

@@ -62,7 +62,7 @@ void draw_icon(Canvas& canvas, const SceneItem& item) {
     }
 }
 
-/// Which pixels of a picture of the machine's stand where.
+/// A picture of the machine's, in its place: which of its rows and columns stand where.
 void draw_picture(Canvas& canvas, const SceneItem& item, const Pictures& pictures) {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
@@ -70,21 +70,23 @@ void draw_picture(Canvas& canvas, const SceneItem& item, const Pictures& picture
         width > most_picture || height > most_picture) {
         return;
     }
-    double scale = 1.0 / item.step;
-    if (item.whole) {
-        scale = std::min(static_cast<double>(item.at.width) / width,
-                         static_cast<double>(item.at.height) / height);
-    }
-    const int shown_width = std::min(item.at.width, static_cast<int>(width * scale));
-    const int shown_height = std::min(item.at.height, static_cast<int>(height * scale));
+    const double wide = item.turned ? height : width;
+    const double high = item.turned ? width : height;
+    const double scale = item.whole ? std::min(item.at.width / wide, item.at.height / high) : 1.0 / item.step;
+    const int shown_width = std::min(item.at.width, static_cast<int>(wide * scale));
+    const int shown_height = std::min(item.at.height, static_cast<int>(high * scale));
     const int x = item.at.x + (item.whole ? (item.at.width - shown_width) / 2 : 0);
     const int y = item.at.y + (item.whole ? (item.at.height - shown_height) / 2 : 0);
+    const auto from = [scale](int at, std::uint32_t most) {
+        return std::min(static_cast<std::uint32_t>(at / scale), most - 1);
+    };
     std::vector<std::uint32_t> row(width);
-    for (int j = 0; j < shown_height; ++j) {
-        const auto from = std::min(static_cast<std::uint32_t>(j / scale), height - 1);
-        if (!pictures.row(item.picture, item.index, from, row)) return;
-        for (int i = 0; i < shown_width; ++i) {
-            canvas.set(x + i, y + j, row[std::min(static_cast<std::uint32_t>(i / scale), width - 1)]);
+    for (int j = 0; j < (item.turned ? shown_width : shown_height); ++j) {
+        if (!pictures.row(item.picture, item.index, from(j, height), row)) return;
+        for (int i = 0; i < (item.turned ? shown_height : shown_width); ++i) {
+            const Color pixel = row[from(i, width)];
+            canvas.set(x + (item.turned ? j : i), y + (item.turned ? i : j),
+                       item.painted && pixel != 0 ? item.color : pixel);
         }
     }
 }

@@ -29,19 +29,20 @@ struct ProcedureStep {
         probe,        ///< touch the bed here; Z becomes the measured height
         homed,        ///< from here on the axes count as homed
         wait,         ///< stand still
-        lose_rounds,  ///< the status wheel leaves out whole rounds (seen during every G28)
+        lose_rounds,  ///< the schedule leaves out whole rounds (seen during every G28)
         raise,        ///< raise an event
     };
+    // In an order that leaves no gaps: Motion holds 64 of them.
     Kind kind = Kind::wait;
-    AxisTargets values{};              ///< to, by: mm. zero, home, homed: present = axis named
-    double feed_mm_s = 0;              ///< shown as F while it runs; 0 leaves the shown value alone
-    double seconds = -1;               ///< fixed duration; < 0: from distance and feed
-    int rounds = 0;                    ///< lose_rounds
+    bool reference = false;  ///< probe: what it touches here is what heights count from, as when homing Z
+    int rounds = 0;          ///< lose_rounds
+    AxisTargets values{};    ///< to, by: mm. zero, home, homed: present = axis named
+    double feed_mm_s = 0;    ///< shown as F while it runs; 0 leaves the shown value alone
+    double seconds = -1;     ///< fixed duration; < 0: from distance and feed
     machine::EventId event = nullptr;  ///< raise
     bool together = false;             ///< home: all axes at the same time
     double bump_s = -1;  ///< home: second, slow touch of the end stops; < 0: as for every axis of the machine
-    int mesh_point = -1;     ///< probe: what it measures is that point of the mesh, 0 to 8
-    bool reference = false;  ///< probe: what it touches here is what heights count from, as when homing Z
+    int mesh_point = -1;  ///< probe: what it measures is that point of the mesh, 0 to 8
 };
 using Procedure = std::vector<ProcedureStep>;
 

@@ -20,7 +20,8 @@ void target(GcodeSource& r, Line line, HeaterId heater, bool waits) {
     GcodeMachine& p = r.on;
     p.thermal.set_target(heater, c);
     const bool cools = !line.has('S') && p.thermal.above(heater);
-    const bool heats = p.thermal.heating(heater) && !p.thermal.reached(heater);
+    const bool there = p.thermal.reached(heater) && (!p.wait.settles() || p.thermal.above(heater));
+    const bool heats = p.thermal.heating(heater) && !there;
     if (waits && (heats || cools)) {
         p.wait.start(heater, r.now, p.events, cools);
     }

@@ -32,6 +32,8 @@ class HeatingWait {
     void cancel(EventQueue& events);
     void advance(SimTime now, const Thermal& thermal, EventQueue& events);
     bool active() const { return active_; }
+    /// Whether a temperature must hold, also one that is there already.
+    bool settles() const { return config_.residency_s > 0; }
     HeaterId heater() const { return heater_; }
     /// Whole seconds that it has still to stay there; -1: it is not there yet.
     int residency_left_s(SimTime now) const;

@@ -20,6 +20,7 @@ void HostCommands::power_on() {
     source_.wake = SimTime{0};
     source_.moves = 0;
     waits_ = yields_ = writing_ = false;
+    wait_busy_ = never;
     unwritten_.clear();
     busy_s_ = config_.busy_s;
     busy_ = never;
@@ -41,7 +42,7 @@ void HostCommands::set_busy_s(double seconds, SimTime now) {
     busy_ = running() && seconds > 0 ? now + from_seconds(seconds) : never;
 }
 
-bool HostCommands::ready(std::size_t from, std::string_view command) {
+bool HostCommands::ready(std::size_t from, std::string_view command, SimTime now) {
     if (running()) {
         return false;
     }
@@ -65,6 +66,9 @@ bool HostCommands::ready(std::size_t from, std::string_view command) {
             waits_ = on.wait.active();
             break;
     }
+    if (waits_ && wait_busy_ == never && busy_s_ > 0) {
+        wait_busy_ = now + from_seconds(busy_s_);
+    }
     return !waits_;
 }
 
@@ -73,6 +77,9 @@ void HostCommands::begin(std::size_t from, std::string_view command, SimTime now
     HostSide::begin(from, command, now);
     source_.now = now;
     source_.byte = source_.on.job.place();
+    if (code_ != nullptr && code_->needs != Needs::nothing) {
+        wait_busy_ = never;
+    }
     yields_ = code_ != nullptr && code_->needs == Needs::room;
     source_.on.commands.begun = this;
     heater_before_ = source_.on.wait.active();
@@ -150,14 +157,16 @@ void HostCommands::advance(SimTime now) {
         source_.now = now;
         stream();
     }
-    if (busy_ <= now) {
-        busy_ = now + from_seconds(busy_s_);
-        source_.on.events.raise(event("host.busy"));
+    for (SimTime* const due : {&busy_, &wait_busy_}) {
+        if (*due <= now) {
+            *due = busy_s_ > 0 ? now + from_seconds(busy_s_) : never;
+            source_.on.events.raise(event("host.busy"));
+        }
     }
 }
 
 SimTime HostCommands::next_of_command(SimTime now) const {
-    SimTime next = busy_;
+    SimTime next = std::min(busy_, wait_busy_);
     if (source_.wake > now) {
         next = std::min(next, source_.wake);
     }

@@ -24,7 +24,7 @@ class HostCommands final : public machine::HostSide {
         : HostSide(on.events), transfer_(transfer), config_(config), source_{on} {}
 
     void power_on() override;
-    bool ready(std::size_t from, std::string_view command) override;
+    bool ready(std::size_t from, std::string_view command, SimTime now) override;
     void begin(std::size_t from, std::string_view command, SimTime now) override;
     bool run_code(bool by_rule) override;
     void settle() override;
@@ -47,7 +47,8 @@ class HostCommands final : public machine::HostSide {
 
     void advance(SimTime now);
     SimTime next_event(SimTime now) const {
-        const bool idle = busy_ == never && source_.wake == SimTime{0} && !source_.arc.active();
+        const bool idle =
+            busy_ == never && wait_busy_ == never && source_.wake == SimTime{0} && !source_.arc.active();
         return idle ? never : next_of_command(now);
     }
 
@@ -81,7 +82,8 @@ class HostCommands final : public machine::HostSide {
     std::size_t writer_ = 0;
     std::string unwritten_;  ///< of the file; less than a block and a line
     double busy_s_ = 0;
-    SimTime busy_ = never;  ///< when the host is told next that it has to wait
+    SimTime busy_ = never;       ///< when the host is told next that it has to wait
+    SimTime wait_busy_ = never;  ///< the same of a command that waits for the planner
 };
 
 }  // namespace fauxboard::filament

@@ -119,7 +119,7 @@ class Motion {
     Mesh mesh;
     /// The point that was probed last: where the probe touched, and the height it found there, mm.
     const std::array<double, 3>& probed_mm() const { return probed_; }
-    /// Rounds that the status wheel is to leave out; asking takes them.
+    /// Rounds that the schedule is to leave out; asking takes them.
     int take_lost_rounds();
 
   private:

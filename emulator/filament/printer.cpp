@@ -7,19 +7,18 @@
 
 namespace fauxboard::filament {
 
-Printer::Printer(std::shared_ptr<const Config> config, const machine::Services& services, std::uint64_t seed)
-    : Machine(kind_row(), config, services, seed, host),
-      config_(std::move(config)),
-      thermal(config_->thermal, seed),
-      motion(config_->motion, settings),
-      moves(config_->motion, leveling, motion, events, loop),
-      feeder(config_->filament),
-      wait(config_->heating),
+Printer::Printer(std::shared_ptr<const Config> shared, const machine::Services& services, std::uint64_t seed)
+    : Machine(kind_row(), std::move(shared), services, seed, host),
+      thermal(config().thermal, seed),
+      motion(config().motion, settings),
+      moves(config().motion, leveling, motion, events, loop),
+      feeder(config().filament),
+      wait(config().heating),
       gcode{motion, moves,  thermal, wait,     mixer, fans,  settings, modal,
-            job,    events, *this,   commands, host,  guard, told,     config_->motion},
-      runner(gcode, storage, config_->job),
-      host(gcode, transfer, config_->host),
-      recovery(gcode, storage, runner, config_->job) {
+            job,    events, *this,   commands, host,  guard, told,     config().motion},
+      runner(gcode, storage, config().job),
+      host(gcode, transfer, config().host),
+      recovery(gcode, storage, runner, config().job) {
     recovery.load(services.job_place);
 }
 
@@ -33,12 +32,12 @@ void Printer::power_on_parts(SimTime now) {
     addons = AddOns{};
     fans = Fans{};
     leveling = Leveling{};
-    leveling.manual_z_mm = config_->manual_level_start_mm;
+    leveling.manual_z_mm = config().manual_level_start_mm;
     filament.detector = Filament{}.detector;  // whether filament is in it is physical and stays
     runner.power_on();
     reports.power_on();
-    guard = {config_->extrusion.guarded, false, config_->filament.min_extrude_c,
-             config_->extrusion.longest_mm};
+    guard = {config().extrusion.guarded, false, config().filament.min_extrude_c,
+             config().extrusion.longest_mm};
     told = {};
     modal = {};
     recovery.power_on();
@@ -48,7 +47,7 @@ void Printer::power_on_parts(SimTime now) {
     motors_rest_ = never;
     fan_order_.reset();
     power_on_ = now;
-    if (config_->job.cut_off_is_paused) {
+    if (config().job.cut_off_is_paused) {
         recovery.stand_paused();
     }
 }
@@ -108,7 +107,7 @@ void Printer::seek_job(double byte) {
 }
 
 void Printer::job_pauses(bool park) {
-    if (config_->job.pause_at_once && park) {
+    if (config().job.pause_at_once && park) {
         pause_now();
     } else {
         runner.pause();
@@ -139,7 +138,7 @@ void Printer::pause_now() {
 }
 
 bool Printer::resume_job() {
-    return config_->job.resume_homes_first ? recovery.begin() : Machine::resume_job();
+    return config().job.resume_homes_first ? recovery.begin() : Machine::resume_job();
 }
 
 void Printer::job_gives_way() {
@@ -148,7 +147,7 @@ void Printer::job_gives_way() {
 }
 
 void Printer::job_ends() {
-    config_->ends_idle ? runner.stop() : runner.finished(now());
+    config().ends_idle ? runner.stop() : runner.finished(now());
     recovery.drop();
 }
 

@@ -28,9 +28,9 @@ class Printer final : public machine::Machine {
   public:
     static const machine::Kind& kind_row() { return own_kind; }
 
-    Printer(std::shared_ptr<const Config> config, const machine::Services& services, std::uint64_t seed);
+    Printer(std::shared_ptr<const Config> shared, const machine::Services& services, std::uint64_t seed);
 
-    const Config& config() const { return *config_; }
+    const Config& config() const { return static_cast<const Config&>(Machine::config()); }
 
     /// Homes the axes of the mask (bit 0 X, 1 Y, 2 Z; 0 means all). False when the motion queue is full.
     bool home(unsigned mask) { return moves.home(mask, now()); }
@@ -57,10 +57,6 @@ class Printer final : public machine::Machine {
     /// Filament state as L3 tells it: 255 detector off, else 1 with and 0 without filament.
     int filament_code() const { return !filament.detector ? 255 : filament.present ? 1 : 0; }
 
-  private:
-    std::shared_ptr<const Config> config_;  // before the parts, which are made from it
-
-  public:
     Thermal thermal;
     Settings settings;
     Leveling leveling;

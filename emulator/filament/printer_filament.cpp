@@ -15,7 +15,7 @@ void Printer::feed(Feeder::Mode mode) {
         return;
     }
     motion.set_motors(true);
-    motion.show_feed(config_->filament.feed_mm_s);
+    motion.show_feed(config().filament.feed_mm_s);
     feeder.start(mode, now());
 }
 
@@ -25,7 +25,7 @@ void Printer::feed_once() {
         return;
     }
     motion.set_motors(true);
-    motion.show_feed(config_->filament.feed_mm_s);
+    motion.show_feed(config().filament.feed_mm_s);
     feeder.feed_once(now());
 }
 
@@ -50,7 +50,7 @@ void Printer::follow_filament() {
     const double share = too_cold_to_extrude() ? 0 : 1 - filament_path.lost;
     filament_path.moved_mm += piece * share;
     filament_path.stuck_mm = share > 0 ? 0 : filament_path.stuck_mm + std::fabs(piece);
-    const double patience = config_->filament.detector_mm;
+    const double patience = config().filament.detector_mm;
     if (patience > 0 && filament_path.stuck_mm > patience && filament.detector && filament.present &&
         job.status() == JobStatus::printing && !job.pausing()) {
         filament_path.stuck_mm = 0;
@@ -59,7 +59,7 @@ void Printer::follow_filament() {
 }
 
 bool Printer::too_cold_to_extrude() const {
-    return thermal.sensed_c(HeaterId::nozzle) < std::max(config_->filament.min_extrude_c, chilled_c_);
+    return thermal.sensed_c(HeaterId::nozzle) < std::max(config().filament.min_extrude_c, chilled_c_);
 }
 
 void Printer::chill(double c) {

@@ -94,7 +94,7 @@ class Thermal {
     /// The printed values of this moment were reported.
     void mark_reported();
     /// Whether the measurement before the last one found any channel 1.0 or more away from the values
-    /// reported. (The recorded board decides in one slot of its status wheel and prints in the next, 0.3 s
+    /// reported. (The recorded board decides in one slot of its schedule and prints in the next, 0.3 s
     /// later. Looking back by one measurement, and no further, tells for 122 of 132 slots between 45 and
     /// 470 s from T0 alone whether it sent; a flag that stays set once any measurement differed is wrong in
     /// every second slot of the cooling from 200 C.) At rest, and at the first measurement after power-on,

@@ -7,30 +7,16 @@
 #include <utility>
 #include <vector>
 
+#include "emulator/control/base64.h"
 #include "emulator/filament/printer.h"
 #include "emulator/machine/disk_source.h"
 #include "emulator/resin/printer.h"
-#include "emulator/sliced/picture_rows.h"
+#include "emulator/sliced/scanlines.h"
 
 namespace fauxboard::host {
 namespace {
 
 using control::Json;
-
-std::string base64(const std::string& bytes) {
-    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string out;
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        std::uint32_t three = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            three = three << 8U | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-        }
-        for (std::size_t k = 0; k < 4; ++k) {
-            out += i + k <= bytes.size() ? digits[three >> (18 - 6 * k) & 63U] : '=';
-        }
-    }
-    return out;
-}
 
 /// A picture made small: each pixel is the brightest of those it stands for, so that nothing thin gets lost.
 struct Small {
@@ -50,18 +36,19 @@ struct Small {
 
 std::optional<Small> read_picture(const resin::ResinJob::Place& place) {
     const machine::DiskSource source(place.disk, place.path);
-    auto rows = sliced::PictureRows::of_layer(place.file, source, place.layer);
-    if (!rows || rows->width() == 0 || rows->height() == 0) {
+    auto lines = sliced::Scanlines::of_layer(place.file, source, place.layer);
+    if (!lines || lines->width() == 0 || lines->height() == 0) {
         return std::nullopt;
     }
-    const std::uint32_t by = std::max(rows->width(), rows->height()) / Drawings::most_side + 1;
-    Small out{(rows->width() + by - 1) / by, (rows->height() + by - 1) / by, {}};
+    const std::uint32_t by = std::max(lines->width(), lines->height()) / Drawings::most_side + 1;
+    Small out{(lines->width() + by - 1) / by, (lines->height() + by - 1) / by, {}};
     out.greys.resize(std::size_t{out.width} * out.height);
-    std::vector<std::uint32_t> row(rows->width());
-    for (std::uint32_t y = 0; rows->next(row); ++y) {
+    std::vector<std::uint32_t> row(lines->width());
+    for (std::uint32_t y = 0; lines->next(row); ++y) {
         std::uint8_t* const line = &out.greys[std::size_t{y / by} * out.width];
         for (std::uint32_t x = 0; x < row.size(); ++x) {
-            line[x / by] = std::max(line[x / by], static_cast<std::uint8_t>(std::min<std::uint32_t>(row[x], 255)));
+            line[x / by] =
+                std::max(line[x / by], static_cast<std::uint8_t>(std::min<std::uint32_t>(row[x], 255)));
         }
     }
     return out;
@@ -110,7 +97,10 @@ Json Drawings::way(bool whole) {
     }
     told_ = std::move(now);
     return {{"way",
-             {{"more", !whole}, {"size", {volume[0], volume[1]}}, {"head", std::move(place)}, {"layers", std::move(layers)}}}};
+             {{"more", !whole},
+              {"size", {volume[0], volume[1]}},
+              {"head", std::move(place)},
+              {"layers", std::move(layers)}}}};
 }
 
 Json Drawings::picture(bool whole) {
@@ -132,7 +122,7 @@ Json Drawings::picture(bool whole) {
         if (const auto small = read_picture(*place)) {
             out["width"] = small->width;
             out["height"] = small->height;
-            out["greys"] = base64(small->packed());
+            out["greys"] = control::to_base64(small->packed());
         }
     }
     told_ = std::move(now);

@@ -46,7 +46,7 @@ inline constexpr auto common_events = std::to_array<EventInfo>({
      "the disk does not take what the USB side writes to a file (M28); its lines go nowhere until M29"},
     {"board.killed", "the board stops for good (M112): what is sent now is the last before a reset"},
     {"power.lost", "the supply breaks down; there is still time to store what must be kept"},
-    {"job.layer_done", "a layer of a resin print has been exposed"},
+    {"job.layer_done", "a layer has been exposed"},
     {"timer.over", "the time that timer.start was given has passed"},
     {"transfer.piece",
      "a piece of an uploaded file came in; transfer.outcome says what became of it, and what is sent goes to "

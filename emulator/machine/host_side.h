@@ -36,7 +36,9 @@ class HostSide : public BegunCommand {
     virtual void power_on();
 
     /// Whether `command` of line `from` may begin now. None may while one runs.
-    virtual bool ready(std::size_t /*from*/, std::string_view /*command*/) { return !running_; }
+    virtual bool ready(std::size_t /*from*/, std::string_view /*command*/, SimTime /*now*/) {
+        return !running_;
+    }
     /// It begins. Ends by over(), however it is carried out.
     virtual void begin(std::size_t from, std::string_view command, SimTime now);
     bool run_code(bool /*by_rule*/) override { return false; }

@@ -56,16 +56,23 @@ class Panel::Session final : public Stream {
         }
         std::string output = session_.take_output();
         session_.proceed();
+        if (!held_.empty() && session_.wants_input()) {
+            session_.receive(std::exchange(held_, {}));
+        }
         if (output.empty() && (session_.over() || session_.dropped())) {
             return std::nullopt;
         }
         return as_events(output);
     }
     Reply receive(std::string_view body) {
-        if (!session_.wants_input()) {
+        if (held_.size() + body.size() > most_held) {
             return refuse(503, "The page does not keep up with what it asked for; try again in a moment.");
         }
-        session_.receive(body);
+        if (!held_.empty() || !session_.wants_input()) {
+            held_ += body;  // an answer that takes its time is under way, or nobody reads
+        } else {
+            session_.receive(body);
+        }
         return {204, Reply{}.type, {}, {}};
     }
 
@@ -73,7 +80,9 @@ class Panel::Session final : public Stream {
     Panel& panel_;
     std::size_t board_;
     std::uint64_t number_;
+    static constexpr std::size_t most_held = 64UL * 1024;
     std::string hello_;
+    std::string held_;  ///< requests that wait for their turn
     control::Session session_;
 };
 

@@ -14,7 +14,7 @@ namespace {
 /// Before it no reply can be: the board answers on the tick after the one that executes.
 constexpr double soonest_s = 0.03;
 constexpr double window_s = 0.3;
-/// Requests whose lines come when the motion they start is done, or in a slot of the status wheel.
+/// Requests whose lines come when the motion they start is done, or in a slot of the schedule.
 constexpr std::array<std::string_view, 3> answered_later{"G28", "G29", "M165"};
 /// What a board also says by itself, so that it is a reply only to those who ask for it; L14 and L16 are the
 /// USB host's and the power's doing.

@@ -26,11 +26,10 @@ std::string_view to_string(Printer::Outcome outcome) {
     return names[static_cast<std::size_t>(outcome)];
 }
 
-Printer::Printer(std::shared_ptr<const Config> config, const machine::Services& services, std::uint64_t seed)
-    : Machine(kind_row(), config, services, seed, host),
-      config_(std::move(config)),
-      axis(config_->resin, used),
-      print(config_->resin, axis, used, job, storage, events, *this) {}
+Printer::Printer(std::shared_ptr<const Config> shared, const machine::Services& services, std::uint64_t seed)
+    : Machine(kind_row(), std::move(shared), services, seed, host),
+      axis(config().resin, used),
+      print(config().resin, axis, used, job, storage, events, *this) {}
 
 void Printer::power_on_parts(SimTime now) {
     axis.abort(now);
@@ -72,7 +71,7 @@ void Printer::run_parts(SimTime now) {
 
 void Printer::insert_card(int disk) {
     if (disk == 0) {
-        stick_due_ = now() + from_seconds(config_->resin.stick_visible_s);
+        stick_due_ = now() + from_seconds(config().resin.stick_visible_s);
     } else {
         Machine::insert_card(disk);
     }
@@ -179,7 +178,7 @@ bool Printer::start() {
 }
 
 void Printer::job_pauses(bool /*park*/) {
-    const ResinConfig& own = config_->resin;
+    const ResinConfig& own = config().resin;
     const double least = std::min(own.pause_from_s, own.pause_to_s);
     const double most = std::max(own.pause_from_s, own.pause_to_s);
     print.pause(now() + from_seconds(least + (most - least) * random()));

@@ -37,14 +37,10 @@ class Printer final : public machine::Machine {
         not_removed
     };
 
-    Printer(std::shared_ptr<const Config> config, const machine::Services& services, std::uint64_t seed);
+    Printer(std::shared_ptr<const Config> shared, const machine::Services& services, std::uint64_t seed);
 
-    const Config& config() const { return *config_; }
+    const Config& config() const { return static_cast<const Config&>(Machine::config()); }
 
-  private:
-    std::shared_ptr<const Config> config_;  // before the parts, which are made from it
-
-  public:
     /// Settings as they are edited, and as the machine uses them (M8510).
     ResinSettings edited;
     ResinSettings used;

@@ -189,6 +189,7 @@ void Compiler::picture_keys(ObjectReader& reader, Figure& out, Allowed allowed) 
     if (const Json* index = reader.get("index")) {
         out.index = expression(*index, reader.pointer("index"), allowed);
     }
+    reader.boolean("turned", out.turned);
     if (reader.has("step")) {
         reader.integer("step", out.step, 1, 64);
         out.whole = false;

@@ -103,6 +103,8 @@ class SceneMaker {
         }
         out.whole = figure.whole;
         out.step = figure.step;
+        out.turned = figure.turned;
+        out.painted = figure.kind == Figure::Kind::picture && !figure.paints.empty();
         items().push_back(std::move(out));
     }
 
@@ -141,7 +143,11 @@ class SceneMaker {
         out.input = button.input;
         const bool pressed = !dead && layers_.pressed == id && layers_.pressed_row == row;
         face(control, out, scope, pressed);
-        if (!out.label.empty()) scene_.texts.push_back(out.label);
+        if (!out.label.empty()) {
+            scene_.texts.push_back(out.label);
+        } else {
+            out.label = scope.row_text;  // drawn by its figures, and what a person calls it
+        }
         scene_.controls.push_back(std::move(out));
     }
 
@@ -254,6 +260,9 @@ const SceneControl* Scene::hit(int x, int y) const {
 }
 
 const SceneControl* Scene::find(std::string_view name) const {
+    if (name.empty()) {
+        return nullptr;
+    }
     for (const auto what : {&SceneControl::name, &SceneControl::label}) {
         const auto found = std::find_if(controls.begin(), controls.end(),
                                         [&](const SceneControl& one) { return one.*what == name; });

@@ -28,6 +28,8 @@ struct SceneItem {
     std::size_t index = 0;  ///< of the picture
     bool whole = true;
     int step = 1;
+    bool turned = false;
+    bool painted = false;  ///< `color` stands for all that is not black
 };
 
 /// A control that can be touched.

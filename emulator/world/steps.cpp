@@ -10,6 +10,7 @@
 #include "emulator/behaviour/actions.h"
 #include "emulator/behaviour/fields.h"
 #include "emulator/machine/faults.h"
+#include "emulator/machine/host_side.h"
 #include "emulator/world/world.h"
 #include "protocol/framing.h"
 

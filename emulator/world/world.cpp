@@ -7,6 +7,7 @@
 
 #include "emulator/behaviour/action_words.h"
 #include "emulator/behaviour/fields.h"
+#include "emulator/machine/host_side.h"
 #include "emulator/world/steps.h"
 #include "protocol/framing.h"
 
@@ -76,14 +77,15 @@ void World::on_received(SimTime, Channel channel, std::string_view line, board::
     ++requests_;
     note(line);
     const bool blank = line.find_first_not_of(" \t\r") == std::string_view::npos;
-    if (channel == Channel::host && verdict == board::Verdict::accepted && !blank) {
+    const bool answers = cast_.probes[static_cast<std::size_t>(Channel::host)].has_value();
+    if (channel == Channel::host && answers && verdict == board::Verdict::accepted && !blank) {
         ++ledger_.commands_taken;
     }
 }
 
 void World::on_sent(SimTime, Channel channel, std::string_view line) {
     ++ledger_.lines_said;
-    if (channel != Channel::host) {
+    if (channel != Channel::host || !cast_.probes[static_cast<std::size_t>(Channel::host)]) {
         return;
     }
     if (line.starts_with("Resend:")) {
@@ -345,6 +347,8 @@ void World::walk() {
     }
     fault::Dice dice(seed_, moves, 1);
     command("G28");
+    command("G90");
+    command("G1 X50 Y50 F6000");
     pass(rest);
     const auto at = [this](std::string_view path) { return number_of(board_->machine(), path).value_or(0); };
     Ledger::Walk walk;
@@ -356,6 +360,11 @@ void World::walk() {
         command(fmt::format("G1 X{:.2f} Y{:.2f} F3000", by[0], by[1]));
         walk.asked_mm[0] += by[0];
         walk.asked_mm[1] += by[1];
+        // As hosts do: a few ahead, and no more until it is acknowledged.
+        for (int waited = 0; ledger_.commands_taken - ledger_.commands_acknowledged > 4 && waited < 600;
+             ++waited) {
+            pass(std::chrono::seconds(1));
+        }
         pass(std::chrono::milliseconds(dice.below(200)));
     }
     command("G90");

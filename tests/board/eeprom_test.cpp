@@ -172,7 +172,7 @@ TEST_CASE("EEPROM: a broken image is read as far as it makes sense") {
     CHECK(eeprom.image->find("no.such.field 7\n") != std::string::npos);
 }
 
-TEST_CASE("EEPROM: M500 stalls the status wheel for 40 to 150 ms, and replies not at all") {
+TEST_CASE("EEPROM: M500 stalls the schedule for 40 to 150 ms, and replies not at all") {
     BoardDriver driver;
     driver.run_until(1);
     driver.meet_screen();

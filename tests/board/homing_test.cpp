@@ -48,7 +48,7 @@ TEST_CASE("homing: the recorded stations, L12 and two L1 at its end after some 3
     CHECK(driver.number("motion.homed") == 1);
 }
 
-TEST_CASE("homing: MT:1 shows in the next slot 2, and the status wheel loses exactly one round") {
+TEST_CASE("homing: MT:1 shows in the next slot 2, and the schedule loses exactly one round") {
     BoardDriver driver;
     get_ready(driver);
     const double pressed = driver.now();

@@ -34,7 +34,7 @@ TEST_CASE("host: M117 is passed on with its leading blank, so that two blanks st
     CHECK(join(after(driver, "M117 a*b")) == "L14  a*b\n");
 }
 
-TEST_CASE("host: commands are executed without a word to the screen, which learns of them by the wheel") {
+TEST_CASE("host: commands are executed without a word to the screen, which learns of them by the schedule") {
     BoardDriver driver;
     get_ready(driver);
     for (const char* line : {"M104 S200", "M140 S50", "M165 A0 B1 C0", "G28"}) {

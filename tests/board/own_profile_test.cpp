@@ -148,7 +148,7 @@ TEST_CASE("reload: from a board without a schedule to one with, and back") {
     driver.board().reload(lively);
     driver.run_until(30);
     CHECK(driver.matching("L3", 10).size() >= 4);
-    driver.host("M190 S60");  // the wheel is frozen when it is taken away
+    driver.host("M190 S60");  // the schedule is frozen when it is taken away
     driver.run_until(40);
     driver.board().reload(silent);
     driver.press("M108");

@@ -162,7 +162,8 @@ TEST_CASE("print: the time of the whole job is within 5 % of the reference, what
     }
 }
 
-TEST_CASE("print: L1 tells the destination of the last planned move; heating stops the wheel and prints L2") {
+TEST_CASE(
+    "print: L1 tells the destination of the last planned move; heating stops the schedule and prints L2") {
     Print print("M190 S40\nG1 X10 Y20 F3000\nG1 X200\nM400\n");
     BoardDriver& driver = print.driver;
     const double start = driver.now();

@@ -14,7 +14,7 @@ using namespace fauxboard::testing;
 
 namespace {
 
-constexpr double window_s = 0.6;  // shorter than the stretch in which the status wheel is silent
+constexpr double window_s = 0.6;  // shorter than the stretch in which the schedule is silent
 constexpr double tick_s = 0.05;
 
 enum class How { bodies, frames, bare };

@@ -38,7 +38,7 @@ void check_reports(const std::vector<BoardDriver::Line>& l2, double start) {
 
 }  // namespace
 
-TEST_CASE("M190 from the host: one L3, L2 every 2 s, the wheel frozen, L12 at its end") {
+TEST_CASE("M190 from the host: one L3, L2 every 2 s, the schedule frozen, L12 at its end") {
     BoardDriver driver;
     get_ready(driver);
     const double start = driver.now();
@@ -53,7 +53,7 @@ TEST_CASE("M190 from the host: one L3, L2 every 2 s, the wheel frozen, L12 at it
     check_reports(driver.matching("L2", start, end), start);
     CHECK(driver.between(start, end).size() ==
           driver.matching("L2", start, end).size() + 1);  // nothing else at all
-    // The wheel goes on where it stopped.
+    // The schedule goes on where it stopped.
     const auto after = driver.matching("L3", end);
     REQUIRE(after.size() > 10);
     CHECK(after[0].at - end < 4.6);
@@ -111,7 +111,7 @@ TEST_CASE("from the screen, M109 and M190 also get their L2 at once") {
     }
 }
 
-TEST_CASE("a wait ends with M108, with M112, or when the target is taken away; the wheel turns again") {
+TEST_CASE("a wait ends with M108, with M112, or when the target is taken away; the schedule goes on") {
     for (const char* request : {"M108", "M112", "M104 S0"}) {
         CAPTURE(request);
         BoardDriver driver;

@@ -36,6 +36,7 @@ struct Bench final : Target {
     void quit() override { ended = true; }
     fault::FaultControl* faults() override { return with_faults ? &loose : nullptr; }
     Json status() const override { return {{"link", {{"kind", "none"}}}}; }
+    Display* display() override { return shown; }
 
     void take() {
         sent += own.output();
@@ -70,6 +71,7 @@ struct Bench final : Target {
     board::Board own;
     testing::LooseFaults loose;
     bool with_faults = true;
+    Display* shown = nullptr;
     bool ended = false;
     SimTime now{0};
     SimTime skip_to{0};

@@ -145,6 +145,19 @@ TEST_CASE("pictures of the machine are fitted into their place, or stepped throu
     CHECK(picture.at(50, 20) == 0x102030);
 }
 
+TEST_CASE("a picture may be turned, and painted in one colour") {
+    const Gradient pictures;
+    screen::Scene scene = empty_scene();
+    auto turned = item(screen::Figure::Kind::picture, {0, 0, 4, 8}, 0xEFEFEF);
+    turned.picture = "gradient";
+    turned.turned = true;
+    scene.items = {turned};
+    CHECK(drawing::draw(scene, &pictures).at(3, 5) == 0x000305);
+    scene.items[0].painted = true;
+    CHECK(drawing::draw(scene, &pictures).at(3, 5) == 0xEFEFEF);
+    CHECK(drawing::draw(scene, &pictures).at(0, 0) == 0);
+}
+
 TEST_CASE("a turned glass shows the picture turned") {
     screen::Scene scene = empty_scene();
     scene.items.push_back(item(screen::Figure::Kind::fill, {0, 0, 1, 1}, 0xFF0000));

@@ -29,7 +29,7 @@ void let_pass(Peer& peer, double seconds) {
     }
 }
 
-/// The status wheel may say these at any time.
+/// The schedule may say these at any time.
 bool periodic(const std::string& body) {
     return body.starts_with("L1 ") || body.starts_with("L2 ") || body.starts_with("L3 ") ||
            body.starts_with("L22 ");

@@ -245,12 +245,18 @@ TEST_CASE("arc: to its own start it is a full circle; by radius either way round
         request.radius = -20;
         CHECK(length(request) == doctest::Approx(circle * 3 / 4).epsilon(0.002));
     }
+    request.radius = 5;  // cannot reach: half a circle, as in Marlin
+    CHECK(length(request) == doctest::Approx(std::hypot(20, 20) / 2 * std::numbers::pi).epsilon(0.002));
     ArcSegments arc;
-    request.radius = 5;  // cannot reach
-    CHECK_FALSE(arc.begin(request));
-    CHECK_FALSE(arc.active());
     request.radius = 0;
     CHECK_FALSE(arc.begin(request));
+    CHECK_FALSE(arc.active());
+    request.radius = 5;  // from where it stands to there
+    const AxisValues to = request.to;
+    request.to = request.from;
+    CHECK_FALSE(arc.begin(request));
+    request.to = to;
+    request.radius = 0;
     request.i = 1e9;  // a bounded number of pieces, whatever comes
     CHECK(arc.begin(request));
 }

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "emulator/sliced/picture_rows.h"
+#include "emulator/sliced/scanlines.h"
 #include "tests/fuzz/support.h"
 #include "tests/support/resin_file.h"
 
@@ -15,13 +15,13 @@ namespace {
 
 using sliced::Layer;
 using sliced::Outcome;
-using sliced::PictureRows;
 using sliced::PictureRuns;
 using sliced::Run;
+using sliced::Scanlines;
 using sliced::SlicedFile;
 
 /// Bigger pictures are read run by run only.
-constexpr std::uint64_t most_row_pixels = 1U << 18;
+constexpr std::uint64_t most_line_pixels = 1U << 18;
 
 void require_sentence(const std::string& problem) {
     require(problem.size() > 20 && problem.size() < 500 && problem.back() == '.', "a problem is no sentence");
@@ -46,26 +46,26 @@ Sum sum_of(PictureRuns runs, std::uint64_t bytes) {
     return sum;
 }
 
-Sum sum_of(PictureRows rows) {
+Sum sum_of(Scanlines lines) {
     Sum sum;
-    std::vector<std::uint32_t> row(rows.width());
-    while (rows.next(row)) {
+    std::vector<std::uint32_t> row(lines.width());
+    while (lines.next(row)) {
         sum.pixels += row.size();
         for (const std::uint32_t value : row) {
             sum.values += value;
         }
     }
-    sum.problem = rows.problem();
+    sum.problem = lines.problem();
     return sum;
 }
 
-/// By runs and by rows it is the same picture, and all of it, or the same mistake.
-void check_picture(const Sum& runs, PictureRows rows) {
-    const std::uint64_t pixels = std::uint64_t{rows.width()} * rows.height();
-    if (pixels <= most_row_pixels) {
-        const Sum by_rows = sum_of(std::move(rows));
-        require(by_rows.problem == runs.problem, "runs and rows do not tell the same");
-        require(!runs.problem.empty() || by_rows.values == runs.values, "runs and rows differ");
+/// By runs and by lines it is the same picture, and all of it, or the same mistake.
+void check_picture(const Sum& runs, Scanlines lines) {
+    const std::uint64_t pixels = std::uint64_t{lines.width()} * lines.height();
+    if (pixels <= most_line_pixels) {
+        const Sum by_lines = sum_of(std::move(lines));
+        require(by_lines.problem == runs.problem, "runs and lines do not tell the same");
+        require(!runs.problem.empty() || by_lines.values == runs.values, "runs and lines differ");
     }
     if (runs.problem.empty()) {
         require(runs.pixels == pixels, "a whole picture lacks pixels");
@@ -84,12 +84,12 @@ void check_layer(const SlicedFile& file, const testing::MemorySource& source, st
         require(layer->end() <= source.size(), "a layer ends beyond the file");
         const Sum sum = sum_of(PictureRuns::of_layer(file, source, n, *layer), layer->data_bytes);
         if (file.header().level_sets == 1) {
-            check_picture(sum, *PictureRows::of_layer(file, source, n));
+            check_picture(sum, *Scanlines::of_layer(file, source, n));
         }
     }
-    Outcome<PictureRows> rows = PictureRows::of_layer(file, source, n);
-    if (rows && file.header().pixels() <= most_row_pixels) {
-        sum_of(std::move(*rows));
+    Outcome<Scanlines> lines = Scanlines::of_layer(file, source, n);
+    if (lines && file.header().pixels() <= most_line_pixels) {
+        sum_of(std::move(*lines));
     }
 }
 
@@ -106,7 +106,7 @@ void run(std::string_view bytes) {
     for (const auto* preview : {&file->header().large_preview, &file->header().small_preview}) {
         if (*preview) {
             check_picture(sum_of(PictureRuns::of_preview(**preview, source), (*preview)->data_bytes),
-                          PictureRows::of_preview(**preview, source));
+                          Scanlines::of_preview(**preview, source));
         }
     }
     for (std::uint32_t n = 0; n < file->header().layers; ++n) {

@@ -317,8 +317,8 @@ TEST_CASE("hostile: a page that asks and never reads is bounded, and dropped in 
         for (int line = 0; line < 100; ++line)
             b.live.on_bytes(protocol::frame("M290 Z0.01"));
         b.loop.run_one_for(5ms);
-        const int status =
-            reader.asker.post(b.path + "live/0/" + std::to_string(reader.session), "{\"op\": \"get\"}\n");
+        const int status = reader.asker.post(b.path + "live/0/" + std::to_string(reader.session),
+                                             std::string(12'000, ' ') + "{\"op\": \"get\"}\n");
         refused += status == 503 || status == 410 ? 1 : 0;
     }
     CHECK(refused == 1);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "emulator/sliced/picture_rows.h"
+#include "emulator/sliced/scanlines.h"
 #include "tests/support/resin_file.h"
 
 namespace fauxboard::sliced::test {
@@ -22,19 +22,19 @@ struct Picture {
     std::string problem;
 };
 
-inline Picture whole(PictureRows rows) {
+inline Picture whole(Scanlines lines) {
     Picture picture;
-    std::vector<std::uint32_t> row(rows.width());
-    while (rows.next(row)) {
+    std::vector<std::uint32_t> row(lines.width());
+    while (lines.next(row)) {
         picture.values.insert(picture.values.end(), row.begin(), row.end());
     }
-    picture.problem = rows.problem();
+    picture.problem = lines.problem();
     return picture;
 }
 
 inline Picture layer_picture(const SlicedFile& file, const ByteSource& source, std::uint32_t n) {
-    Outcome<PictureRows> rows = PictureRows::of_layer(file, source, n);
-    return rows ? whole(std::move(*rows)) : Picture{{}, rows.problem()};
+    Outcome<Scanlines> lines = Scanlines::of_layer(file, source, n);
+    return lines ? whole(std::move(*lines)) : Picture{{}, lines.problem()};
 }
 
 /// The first problem that reading all of the file meets: header, every layer's record and pictures, previews.
@@ -45,7 +45,7 @@ inline std::string read_all(const ByteSource& source) {
     }
     for (const auto* preview : {&file->header().large_preview, &file->header().small_preview}) {
         const std::string problem =
-            *preview ? whole(PictureRows::of_preview(**preview, source)).problem : std::string();
+            *preview ? whole(Scanlines::of_preview(**preview, source)).problem : std::string();
         if (!problem.empty()) {
             return problem;
         }

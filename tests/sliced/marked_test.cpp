@@ -46,7 +46,7 @@ TEST_CASE("sliced: a .pws with its settings, its preview and its pictures") {
             CHECK(layer_picture(*file, source, n).values == expected_picture(wishes, n));
         }
         REQUIRE(header.large_preview);
-        const Picture preview = whole(PictureRows::of_preview(*header.large_preview, source));
+        const Picture preview = whole(Scanlines::of_preview(*header.large_preview, source));
         REQUIRE(preview.values.size() == 12);
         CHECK(preview.values[0] == 0xFF'00'00);
         CHECK(preview.values[1] == 0x00'00'FF);

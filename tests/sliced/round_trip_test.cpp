@@ -145,7 +145,7 @@ TEST_CASE("sliced: both previews, pixel by pixel") {
     REQUIRE(file);
     for (const auto* preview : {&file->header().large_preview, &file->header().small_preview}) {
         REQUIRE(*preview);
-        const Picture picture = whole(PictureRows::of_preview(**preview, source));
+        const Picture picture = whole(Scanlines::of_preview(**preview, source));
         CHECK(picture.problem == "");
         REQUIRE(picture.values.size() == (*preview)->width * (*preview)->height);
         const std::uint32_t width = (*preview)->width;

@@ -8,7 +8,7 @@
 #include <set>
 #include <vector>
 
-#include "emulator/sliced/picture_rows.h"
+#include "emulator/sliced/scanlines.h"
 #include "tests/support/resin_file.h"
 
 using namespace fauxboard;
@@ -39,14 +39,14 @@ TEST_CASE("sample: the reader finds header and layers as they were wished for") 
     CHECK(ends.size() == 7);
     CHECK(*ends.rbegin() == bytes.size());
     CHECK_FALSE(file->layer(source, 7));
-    auto rows = PictureRows::of_layer(*file, source, 3);
-    REQUIRE(rows);
-    std::vector<std::uint32_t> row(rows->width());
+    auto lines = Scanlines::of_layer(*file, source, 3);
+    REQUIRE(lines);
+    std::vector<std::uint32_t> row(lines->width());
     std::size_t lit = 0;
-    while (rows->next(row)) {
+    while (lines->next(row)) {
         lit += static_cast<std::size_t>(std::count(row.begin(), row.end(), 255U));
     }
-    CHECK(rows->problem() == "");
+    CHECK(lines->problem() == "");
     CHECK(lit == 24 * 8);
 }
 
@@ -66,13 +66,13 @@ TEST_CASE("sample: on an LCD of the wished size") {
     const auto file = SlicedFile::open(source);
     REQUIRE(file);
     CHECK(file->header().width == 1440);
-    auto rows = PictureRows::of_layer(*file, source, 1);
-    REQUIRE(rows);
-    std::vector<std::uint32_t> row(rows->width());
+    auto lines = Scanlines::of_layer(*file, source, 1);
+    REQUIRE(lines);
+    std::vector<std::uint32_t> row(lines->width());
     std::size_t lit = 0;
-    while (rows->next(row)) {
+    while (lines->next(row)) {
         lit += static_cast<std::size_t>(std::count(row.begin(), row.end(), 255U));
     }
-    CHECK(rows->problem() == "");
+    CHECK(lines->problem() == "");
     CHECK(lit == 1432U * 2552U);
 }

@@ -56,8 +56,8 @@ class BoardDriver final : private board::Observer {
     bool run_until_reply(double seconds);
     double now() const { return now_; }
 
-    /// Runs on into the stretch of the next round in which the status wheel has nothing to say: 0.85 s from
-    /// slot 4. Holds for the shipped profiles as long as nothing stalled the wheel.
+    /// Runs on into the stretch of the next round in which the schedule has nothing to say: 0.85 s from
+    /// slot 4. Holds for the shipped profiles as long as nothing stalled the schedule.
     void run_to_quiet();
 
     /// The screen sends these requests, framed, in one go.

@@ -26,7 +26,7 @@ class MarlinBench {
     /// One second after power-on, with a card that holds TEST.GCO of 1234 bytes.
     explicit MarlinBench(const std::string& profile);
 
-    machine::MemoryVolume card;
+    machine::MemoryVolume card{{{"Long folder", true, {}, {}}}};
 
     void world(std::string_view phrase);
     /// Bytes from the other end of a line.

@@ -11,6 +11,7 @@
 #include "emulator/host/screen_files.h"
 #include "emulator/host/screen_plug.h"
 #include "emulator/host/script_files.h"
+#include "emulator/host/board_display.h"
 #include "emulator/host/script_host.h"
 #include "emulator/link/event_loop.h"
 #include "emulator/machine/memory_volume.h"
@@ -91,16 +92,24 @@ ScenarioRun play(const behaviour::SourceText& source, const ScenarioSetup& setup
     options.pacing = setup.pacing;
     options.seed = setup.seed;
     options.observer = &observers;
+    std::optional<touch::TouchScreen> own;
+    if (cast.screen && cast.screen->display) {
+        options.front = &own.emplace(cast.screen);
+    }
     board::Board board(cast.profile, services, options);
     NoLink nobody;
     std::optional<host::ScreenPlug> plug;
-    if (cast.screen) {
+    std::optional<host::BoardDisplay> display;
+    if (own) {
+        display.emplace(*own, board);
+    } else if (cast.screen) {
         plug.emplace(cast.screen, *clock);
     }
     host::FaultyLink line(plug ? plug->board_end() : nobody, *clock, fault::Direction::to_board);
     host::LiveBoard live(board, line, *clock, &observers);
     host::ScriptHost script({live, *clock, &line, plug ? &*plug : nullptr, [&loop] { loop.stop(); },
-                             [&out](std::string_view words) { out.notes.emplace_back(words); }},
+                             [&out](std::string_view words) { out.notes.emplace_back(words); },
+                             display ? &*display : nullptr},
                             scenario, speed);
     observers.add(script);
     line.open(live);

@@ -156,7 +156,8 @@ bool TouchBench::run_until_field(std::string_view path, double value, double wit
         if (now >= end) return false;
         // Nothing changes by itself but at the board's own times, and what moves.
         const SimTime due = board.advance(now);
-        const SimTime next = field("platform.moving") != 0 ? now + step : std::min(std::max(due, now + step), end);
+        const SimTime next =
+            field("platform.moving") != 0 ? now + step : std::min(std::max(due, now + step), end);
         run_for(machine::to_seconds(next - now));
         board.refresh(now);
     }

@@ -83,6 +83,8 @@ TEST_CASE("check 3: files as tiles, four a page, in the stick's own order") {
     CHECK(bench.title() == "FILES");
     CHECK(bench.has_text("/"));
     CHECK(shows(bench, {"a.pws", "d.photon", "f.cbddlp", "g.acfg"}));
+    CHECK(bench.label("Tile 1") == "a.pws");
+    CHECK(bench.label("Tile 4") == "g.acfg");
     CHECK_FALSE(bench.enabled("Page up"));
     CHECK(bench.enabled("Page down"));
     bench.tap(432, 279);
@@ -91,6 +93,7 @@ TEST_CASE("check 3: files as tiles, four a page, in the stick's own order") {
     CHECK_FALSE(bench.enabled("Page down"));
     bench.tap(432, 211);
     CHECK(shows(bench, {"a.pws", "d.photon", "f.cbddlp", "g.acfg"}));
+    CHECK(bench.label("Tile 3").empty());
     // An empty tile is there, beeps and does nothing; a picture file does nothing.
     bench.tap(432, 279);
     bench.tap(283, 250);

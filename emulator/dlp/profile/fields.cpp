@@ -1,5 +1,7 @@
 // Print, platform, lamp, panel, files, settings, clock.
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <utility>
@@ -205,7 +207,7 @@ constexpr std::array view_rows{
          FAUXBOARD_DLP_SEEN(std::string_view(b.viewed().path))),
     seen("view.bytes", integer, "bytes", "its size", FAUXBOARD_DLP_SEEN(b.viewed().bytes)),
     seen("view.date", text, "", "when it was written: YYYY-MM-DD HH:MM",
-         FAUXBOARD_DLP_SEEN(date_text(b.viewed().modified_s))),
+         FAUXBOARD_DLP_SEEN(std::string_view(b.viewed().date))),
     seen("view.layers", integer, "", "layers", FAUXBOARD_DLP_VIEW(layers(), 0U)),
     seen("view.seconds", integer, "s", "estimate of its print",
          FAUXBOARD_DLP_VIEW(estimate_s(b.settings.motor, b.config().firmware), 0U)),
@@ -226,7 +228,7 @@ constexpr std::array view_rows{
     seen("view.too_high", boolean, "", "the model is higher than the axis",
          FAUXBOARD_DLP_VIEW(too_high(b.settings.motor), false)),
     seen("files.folder", text, "", "folder shown: /, /dir/, /dir/sub/",
-         FAUXBOARD_DLP_SEEN("/" + b.files.folder())),
+         FAUXBOARD_DLP_SEEN(std::string_view(b.files.shown()))),
     seen("files.root", boolean, "", "it is the root", FAUXBOARD_DLP_SEEN(b.files.folder().empty())),
     seen("files.count", integer, "", "entries of it that are listed",
          FAUXBOARD_DLP_SEEN(b.files.files().size())),
@@ -311,15 +313,26 @@ constexpr std::array clock_rows{
     clock_row<&Moment::second>("clock.second", 0, 59, "same"),
 };
 
-/// A parameter of settings files as a field: setup.NAME, as it is in force.
+/// A parameter of settings files as a field: setup.NAME, as it is in force. One that is told in the unit of the
+/// file can be set, too, within the bounds that hold for the file.
 template <std::size_t I>
 Field parameter_row() {
     static const std::string path = "setup." + std::string(parameters()[I].value_name);
     const Parameter& parameter = parameters()[I];
-    return row.shown(path, number, parameter.unit, parameter.help, [](const Printer& p) {
+    const auto get = [](const Printer& p) {
         return parameters()[I].since <= p.board.config().firmware ? parameters()[I].get(p.board.settings)
                                                                   : 0.0;
-    });
+    };
+    if (parameter.value_name != parameter.name) {
+        return row.shown(path, number, parameter.unit, parameter.help, get);
+    }
+    constexpr double most = 1e9;
+    return row.handled(path, number, parameter.unit, -most, most, parameter.help, get,
+                       [](Printer& p, const Value& v) {
+                           static_cast<void>(parameters()[I].take(p.board.settings,
+                                                                  read_number(fmt::format("{:.6f}", v.number)),
+                                                                  p.board.config().firmware));
+                       });
 }
 
 template <std::size_t... I>

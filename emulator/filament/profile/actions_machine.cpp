@@ -201,8 +201,8 @@ constexpr std::array range_args{ArgInfo{"start", number, false, "packed ratio at
 constexpr std::array table{
     ActionInfo{"heater.target", "", "sets a target; beyond the machine's limits it is clamped and said",
                heater_target_args, own<heater_target>},
-    ActionInfo{"heater.wait", "", "stops the status wheel until the heater is there (M109, M190)",
-               heater_args, own<heater_wait>},
+    ActionInfo{"heater.wait", "", "stops the schedule until the heater is there (M109, M190)", heater_args,
+               own<heater_wait>},
     ActionInfo{"heater.stop_waiting",
                "",
                "breaks a wait, or the tuning of a controller, off (M108)",

@@ -89,19 +89,22 @@ export class Board extends EventTarget {
         this.state = {};
         this.pace.real = 0;
         try {
-            const [status, words, now] = await Promise.all([
-                this.op('status'), this.op('describe', {what: ['fields', 'variables', 'actions', 'faults', 'frames']}), this.op('get')]);
-            Object.assign(this.state, now.fields);
+            // One after the other: the words fill all the room that answers have.
+            const status = await this.op('status');
+            Object.assign(this.state, (await this.op('get')).fields);
+            const words = await this.op('describe', {what: ['fields', 'variables', 'actions', 'faults', 'frames']});
             this.status = status;
             this.t = status.t;
             this.link = status.link;
             this.words = words;
             this.fields = new Map(words.fields.concat(words.variables).map(field => [field.path, field]));
-            this.pace.every = 0.5;
+            this.pace.every = Math.max(0.4 * status.speed, 0.5);
             await Promise.all([this.watch_state(), this.op('subscribe', {topic: 'link'}), this.op('subscribe', {topic: 'notices'})]);
             this.tell('begin');
         } catch (error) {
-            if (error.code !== 'lost') throw error;
+            if (error.code === 'lost') return;
+            if (!(error instanceof Refused)) throw error;
+            this.lost();  // and anew
         }
     }
 
@@ -112,18 +115,13 @@ export class Board extends EventTarget {
     /** A board may run faster than time: what a person can follow is some two looks a second of theirs. */
     keep_pace() {
         const now = performance.now() / 1000, pace = this.pace;
-        if (pace.real === 0) {
-            pace.real = now;
-            pace.virtual = this.t;
-        } else if (now - pace.real > 2) {
-            const wanted = 0.4 * Math.max(1, (this.t - pace.virtual) / (now - pace.real));
-            pace.real = now;
-            pace.virtual = this.t;
-            if (wanted > pace.every * 1.5 || wanted < pace.every / 2) {
-                pace.every = Math.max(wanted, 0.5);
-                this.watch_state();
-            }
+        if (this.status.speed > 0 || now - pace.real < 2) return;
+        if (pace.real > 0) {  // as fast as it goes: that has to be measured
+            pace.every = Math.max(0.4 * (this.t - pace.virtual) / (now - pace.real), 0.5);
+            this.watch_state();
         }
+        pace.real = now;
+        pace.virtual = this.t;
     }
 
     answer(message) {

@@ -70,11 +70,7 @@ export function mount(root, board, {small = false} = {}) {
     /** One more point of all that is drawn, with the values as they are now. */
     function add() {
         const t = board.t;
-        if (times.length > 0 && t < times[times.length - 1]) {
-            times.length = 0;
-            columns.forEach(column => { column.values.length = 0; });
-        }
-        if (times.length > 0 && t === times[times.length - 1]) return;
+        if (times.length > 0 && t <= times[times.length - 1]) return;
         times.push(t);
         for (const column of columns) column.values.push(number(board.state[column.path]));
         if (times.length > most_points) thin();

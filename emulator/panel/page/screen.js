@@ -58,13 +58,89 @@ export function mount(root, board, {small = false} = {}) {
 
     const end_screen = board.on('screen', message => draw(message.screen));
     const unsubscribe = board.subscribe('screen');
+    let end_pixels = null, ended = false;
     board.op('screen').then(answer => {
-        if (answer.screen) return draw(answer.screen);
-        root.replaceChildren(h('p', {class: 'empty'}, 'No screen is known for this profile.'));
+        if (ended) return;
+        if (answer.screen) draw(answer.screen);
+        else end_pixels = show_pixels(face, fault, board, () => root.replaceChildren(h('p', {class: 'empty'}, 'No screen is known for this profile.')));
     }, () => {});
     return () => {
+        ended = true;
         end_screen();
+        if (end_pixels) end_pixels();
         unsubscribe.then(stop => stop());
+    };
+}
+
+const look_ms = 400;
+const picture_ms = 2000;
+
+/** A board with a screen of its own: its picture, and over it a button for each control. */
+function show_pixels(face, fault, board, on_none) {
+    const image = h('img', {alt: 'The screen of the board', draggable: 'false'});
+    const controls = h('div', {class: 'controls'});
+    let timer = null, ended = false, drawn = '', drawn_at = 0;
+    face.classList.add('pixels');
+    refill(face, image, controls);
+
+    async function touch(where) {
+        show(fault, false);
+        try {
+            await board.op('touch', where);
+        } catch (error) {
+            if (!(error instanceof Refused)) throw error;
+            say(fault, error.message);
+            show(fault, true);
+        }
+        look();
+    }
+    image.addEventListener('click', event => {
+        const box = image.getBoundingClientRect();
+        touch({x: Math.floor((event.clientX - box.left) * image.naturalWidth / box.width),
+               y: Math.floor((event.clientY - box.top) * image.naturalHeight / box.height)});
+    });
+
+    function place(page) {
+        const focus = controls.contains(document.activeElement) ? document.activeElement.title : null;
+        refill(controls, page.controls.map(control => {
+            const key = h('button', {class: 'spot', title: control.label || control.name, 'aria-label': control.label || control.name,
+                                     disabled: control.enabled === false, onclick: () => touch({control: control.name})});
+            key.style.left = control.x / image.naturalWidth * 100 + '%';
+            key.style.top = control.y / image.naturalHeight * 100 + '%';
+            key.style.width = control.w / image.naturalWidth * 100 + '%';
+            key.style.height = control.h / image.naturalHeight * 100 + '%';
+            return key;
+        }));
+        if (focus) for (const key of controls.children) if (key.title === focus) key.focus();
+        image.alt = [page.title, ...page.texts, page.box ? page.box.text : ''].filter(Boolean).join('. ');
+    }
+
+    async function look() {
+        clearTimeout(timer);
+        try {
+            const page = await board.op('page');
+            const text = JSON.stringify({...page, id: 0});
+            if (text !== drawn || performance.now() - drawn_at > picture_ms) {
+                const picture = await board.op('screenshot');
+                if (ended) return;
+                image.src = 'data:image/png;base64,' + picture.png;
+                await image.decode();
+                drawn_at = performance.now();
+                if (text !== drawn) place(page);
+                drawn = text;
+            }
+        } catch (error) {
+            if (error.code === 'not-here') return ended ? undefined : on_none();
+        }
+        if (!ended) {
+            clearTimeout(timer);
+            timer = setTimeout(look, look_ms);
+        }
+    }
+    look();
+    return () => {
+        ended = true;
+        clearTimeout(timer);
     };
 }
 

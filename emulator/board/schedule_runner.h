@@ -11,19 +11,19 @@ namespace fauxboard::board {
 
 using machine::SimTime;
 
-/// The board's status wheel: slots of fixed length, round after round, each perhaps sending one frame. Keeps
+/// The board's schedule: slots of fixed length, round after round, each perhaps sending one frame. Keeps
 /// what each slot needs to decide (rounds, values last sent); whoever turns it sends.
 ///
 /// It needs no turning while nothing can come of it: next_due() looks ahead to the first slot that may send.
-class Wheel {
+class ScheduleRunner {
   public:
     /// Stands still until power_on().
-    explicit Wheel(const behaviour::Profile& profile) {
+    explicit ScheduleRunner(const behaviour::Profile& profile) {
         reload(profile, SimTime{0});
         next_ = machine::never;
     }
 
-    /// Another profile's slots and watched values; the wheel's place is kept as far as it fits. A wheel that
+    /// Another profile's slots and watched values; the schedule's place is kept as far as it fits. One that
     /// had no slots starts one slot's time from `now`.
     void reload(const behaviour::Profile& profile, SimTime now);
     void power_on(SimTime now);
@@ -52,7 +52,7 @@ class Wheel {
     void lose_rounds(int rounds);
     void stall(SimTime time);
 
-    /// While frozen the wheel stands at its slot; it goes on one slot's time after the thaw.
+    /// While frozen the schedule stands at its slot; it goes on one slot's time after the thaw.
     bool frozen() const { return frozen_; }
     void thaw(SimTime now);
 

@@ -1,4 +1,4 @@
-#include "emulator/board/wheel.h"
+#include "emulator/board/schedule_runner.h"
 
 #include <algorithm>
 #include <limits>
@@ -9,7 +9,7 @@ using behaviour::Scope;
 using behaviour::Slot;
 using machine::never;
 
-void Wheel::reload(const behaviour::Profile& profile, SimTime now) {
+void ScheduleRunner::reload(const behaviour::Profile& profile, SimTime now) {
     profile_ = &profile;
     slots_.resize(profile.schedule.slots.size());
     watch_from_.clear();
@@ -37,7 +37,7 @@ void Wheel::reload(const behaviour::Profile& profile, SimTime now) {
     }
 }
 
-void Wheel::power_on(SimTime now) {
+void ScheduleRunner::power_on(SimTime now) {
     for (std::size_t i = 0; i < slots_.size(); ++i) {
         slots_[i].base = profile_->schedule.slots[i].first_round;
         slots_[i].last_sent = 0;
@@ -49,7 +49,7 @@ void Wheel::power_on(SimTime now) {
     next_ = slots_.empty() ? never : now + profile_->schedule.first;
 }
 
-void Wheel::take_as_told(const machine::Machine& machine) {
+void ScheduleRunner::take_as_told(const machine::Machine& machine) {
     for (const Slot& slot : profile_->schedule.slots) {
         if (slot.frame && slot.starts_told) {
             remember(*slot.frame, machine);
@@ -57,22 +57,22 @@ void Wheel::take_as_told(const machine::Machine& machine) {
     }
 }
 
-bool Wheel::changed(const std::vector<std::size_t>& which, std::size_t frame,
-                    const machine::Machine& machine) const {
+bool ScheduleRunner::changed(const std::vector<std::size_t>& which, std::size_t frame,
+                             const machine::Machine& machine) const {
     const auto& fields = profile_->frames[frame].watched;
     return std::any_of(which.begin(), which.end(), [&](std::size_t i) {
         return !(fields[i]->get(machine).number == watched_[watch_from_[frame] + i]);
     });
 }
 
-void Wheel::remember(std::size_t frame, const machine::Machine& machine) {
+void ScheduleRunner::remember(std::size_t frame, const machine::Machine& machine) {
     const auto& fields = profile_->frames[frame].watched;
     for (std::size_t i = 0; i < fields.size(); ++i) {
         watched_[watch_from_[frame] + i] = fields[i]->get(machine).number;
     }
 }
 
-bool Wheel::sent_this_round(std::size_t frame) const {
+bool ScheduleRunner::sent_this_round(std::size_t frame) const {
     const auto& slots = profile_->schedule.slots;
     for (std::size_t i = 0; i < slots.size(); ++i) {
         if (slots[i].frame == frame && slots_[i].last_sent == round_ + 1) {
@@ -82,13 +82,13 @@ bool Wheel::sent_this_round(std::size_t frame) const {
     return false;
 }
 
-bool Wheel::conditions_hold(std::size_t index, const Scope& scope) const {
+bool ScheduleRunner::conditions_hold(std::size_t index, const Scope& scope) const {
     const Slot& slot = profile_->schedule.slots[index];
     return behaviour::all_hold(slot.when, scope) &&
            (slot.when_changed.empty() || changed(slot.when_changed, *slot.frame, scope.machine));
 }
 
-const Slot* Wheel::turn(const Scope& scope) {
+const Slot* ScheduleRunner::turn(const Scope& scope) {
     const behaviour::Schedule& schedule = profile_->schedule;
     if (schedule.frozen(scope)) {
         frozen_ = true;
@@ -119,7 +119,7 @@ const Slot* Wheel::turn(const Scope& scope) {
     return due ? &slot : nullptr;
 }
 
-SimTime Wheel::next_due(const Scope& scope, bool volatile_state) const {
+SimTime ScheduleRunner::next_due(const Scope& scope, bool volatile_state) const {
     if (next_ == never) {
         return never;
     }
@@ -153,19 +153,19 @@ SimTime Wheel::next_due(const Scope& scope, bool volatile_state) const {
     return best;
 }
 
-void Wheel::lose_rounds(int rounds) {
+void ScheduleRunner::lose_rounds(int rounds) {
     if (next_ != never) {
         next_ += rounds * static_cast<SimTime::rep>(slots_.size()) * profile_->schedule.slot;
     }
 }
 
-void Wheel::stall(SimTime time) {
+void ScheduleRunner::stall(SimTime time) {
     if (next_ != never) {
         next_ += time;
     }
 }
 
-void Wheel::thaw(SimTime now) {
+void ScheduleRunner::thaw(SimTime now) {
     frozen_ = false;
     next_ = now + profile_->schedule.slot;
 }

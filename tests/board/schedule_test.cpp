@@ -1,4 +1,4 @@
-// The status wheel: what the board says without being asked, and when.
+// The schedule: what the board says without being asked, and when.
 
 #include <doctest/doctest.h>
 
@@ -23,7 +23,7 @@ void check_period(const std::vector<BoardDriver::Line>& lines, double period_s) 
 
 }  // namespace
 
-TEST_CASE("wheel: L3 every second round, 4.199 s; L21 every round until M2134, then never") {
+TEST_CASE("schedule: L3 every second round, 4.199 s; L21 every round until M2134, then never") {
     BoardDriver driver;
     driver.run_until(16.5);
     const auto l21 = driver.matching("L21 P0 S0");
@@ -40,7 +40,7 @@ TEST_CASE("wheel: L3 every second round, 4.199 s; L21 every round until M2134, t
     CHECK(driver.matching("L9", 16.5).size() == 1);
 }
 
-TEST_CASE("wheel: a cold, idle board says nothing but L3") {
+TEST_CASE("schedule: a cold, idle board says nothing but L3") {
     BoardDriver driver;
     driver.run_until(1);
     driver.meet_screen();
@@ -51,7 +51,7 @@ TEST_CASE("wheel: a cold, idle board says nothing but L3") {
     CHECK(driver.matching("L3", 4).size() == 951);
 }
 
-TEST_CASE("wheel: motors on or off brings L3 in the next slot 2, and its pause counts anew from there") {
+TEST_CASE("schedule: motors on or off brings L3 in the next slot 2, and its pause counts anew from there") {
     BoardDriver driver;
     driver.run_until(1);
     driver.meet_screen();
@@ -72,7 +72,7 @@ TEST_CASE("wheel: motors on or off brings L3 in the next slot 2, and its pause c
     check_period(driver.matching("L3", off[0].at), 2 * round_s);
 }
 
-TEST_CASE("wheel: a changed mixing ratio waits for the next L3, and L22 follows that by one slot") {
+TEST_CASE("schedule: a changed mixing ratio waits for the next L3, and L22 follows that by one slot") {
     BoardDriver driver;
     driver.run_until(1);
     driver.meet_screen();
@@ -91,7 +91,7 @@ TEST_CASE("wheel: a changed mixing ratio waits for the next L3, and L22 follows 
     CHECK(driver.matching("L22", 30).empty());
 }
 
-TEST_CASE("wheel: a ratio told by a reply is not told again by the wheel") {
+TEST_CASE("schedule: a ratio told by a reply is not told again by the schedule") {
     BoardDriver driver;
     driver.run_until(1);
     driver.meet_screen();
@@ -101,7 +101,7 @@ TEST_CASE("wheel: a ratio told by a reply is not told again by the wheel") {
     CHECK(driver.matching("L22", 5).size() == 1);
 }
 
-TEST_CASE("wheel: L1 in slot 0, only while the planned position differs from the last one told") {
+TEST_CASE("schedule: L1 in slot 0, only while the planned position differs from the last one told") {
     BoardDriver driver;
     driver.run_until(1);
     driver.meet_screen();
@@ -118,7 +118,7 @@ TEST_CASE("wheel: L1 in slot 0, only while the planned position differs from the
     CHECK(driver.matching("L1", 30).size() == 1);
 }
 
-TEST_CASE("wheel: L2 in slot 1 while a printed temperature is 1.0 or more away from the last one told") {
+TEST_CASE("schedule: L2 in slot 1 while a printed temperature is 1.0 or more away from the last one told") {
     BoardDriver driver;
     driver.run_until(1);
     driver.meet_screen();
@@ -136,7 +136,7 @@ TEST_CASE("wheel: L2 in slot 1 while a printed temperature is 1.0 or more away f
     }
 }
 
-TEST_CASE("wheel: replies do not move it") {
+TEST_CASE("schedule: replies do not move it") {
     BoardDriver plain;
     BoardDriver asked;
     for (BoardDriver* driver : {&plain, &asked}) {

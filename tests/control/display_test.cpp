@@ -1,0 +1,80 @@
+// The ops at the screen that shows a board.
+
+#include "emulator/control/base64.h"
+#include "emulator/control/display.h"
+#include "tests/control/bench.h"
+
+namespace fauxboard::control::test {
+namespace {
+
+/// A screen that takes note of what is done to it.
+struct Noting final : Display {
+    Json page(SimTime) override { return {{"page", "Main"}, {"title", "MAIN"}}; }
+    std::string png(SimTime) override { return "\x89PNG"; }
+    Touched touch(SimTime now, int x, int y, SimTime how_long) override {
+        noted = fmt::format("{},{} for {}", x, y, how_long.count());
+        return {x < 480 ? "" : "not on the screen", now + how_long};
+    }
+    Touched touch(SimTime now, std::string_view control, SimTime how_long) override {
+        noted = fmt::format("{} for {}", control, how_long.count());
+        return {control == "Files" ? "" : "no such control", now + how_long};
+    }
+    std::string noted;
+};
+
+TEST_CASE("page and screenshot answer at once") {
+    Bench bench;
+    Noting screen;
+    bench.shown = &screen;
+    Client client(bench);
+    CHECK(client.ask(R"({"op": "page"})")["title"] == "MAIN");
+    CHECK(client.ask(R"({"op": "screenshot"})")["png"] == to_base64("\x89PNG"));
+}
+
+TEST_CASE("touch answers when the finger is off again") {
+    Bench bench;
+    Noting screen;
+    bench.shown = &screen;
+    Client client(bench);
+    CHECK(client.ask(R"({"op": "touch", "control": "Files"})").is_null());
+    CHECK(screen.noted == "Files for 120000");
+    bench.pass(100ms);
+    CHECK(client.lines().empty());
+    bench.pass(50ms);
+    const auto answers = client.lines();
+    REQUIRE(answers.size() == 1);
+    CHECK(answers[0]["ok"] == true);
+    CHECK(client.ask(R"({"op": "touch", "x": 330, "y": 17, "for": "2600ms"})").is_null());
+    CHECK(screen.noted == "330,17 for 2600000");
+}
+
+TEST_CASE("wrong touches are told") {
+    Bench bench;
+    Client client(bench);
+    CHECK(client.code(R"({"op": "page"})") == "not_here");
+    CHECK(client.code(R"({"op": "touch", "control": "Files"})") == "not_here");
+    Noting screen;
+    bench.shown = &screen;
+    CHECK(client.code(R"({"op": "touch"})") == "bad_arguments");
+    CHECK(client.code(R"({"op": "touch", "x": 1})") == "bad_arguments");
+    CHECK(client.code(R"({"op": "touch", "x": 1.5, "y": 2})") == "bad_arguments");
+    CHECK(client.code(R"({"op": "touch", "x": 1e9, "y": 2})") == "bad_arguments");
+    CHECK(client.code(R"({"op": "touch", "control": "Files", "x": 1, "y": 2})") == "bad_arguments");
+    CHECK(client.code(R"({"op": "touch", "control": "Files", "for": "11min"})") == "out_of_range");
+    CHECK(client.code(R"({"op": "touch", "control": "Nowhere"})") == "refused");
+    CHECK(client.code(R"({"op": "touch", "x": 480, "y": 0})") == "refused");
+}
+
+TEST_CASE("base64 goes there and back, and refuses what is none") {
+    std::string bytes;
+    for (int length = 0; length < 20; ++length) {
+        CHECK(from_base64(to_base64(bytes)) == bytes);
+        bytes += static_cast<char>(length * 37);
+    }
+    CHECK(to_base64("fooba") == "Zm9vYmE=");
+    CHECK_FALSE(from_base64("Zm9").has_value());
+    CHECK_FALSE(from_base64("Zm!=").has_value());
+}
+
+}  // namespace
+}  // namespace fauxboard::control::test
