@@ -6,7 +6,7 @@ namespace fauxboard::filament {
 
 /// Motors that nobody needs any more switch themselves off after a while.
 void Printer::rest_motors(SimTime now) {
-    if (config_->motion.idle_off_s <= 0) {
+    if (config().motion.idle_off_s <= 0) {
         return;
     }
     if (motors_rest_ <= now) {
@@ -17,12 +17,12 @@ void Printer::rest_motors(SimTime now) {
     if (!idle) {
         motors_rest_ = never;
     } else if (motors_rest_ == never) {
-        motors_rest_ = now + from_seconds(config_->motion.idle_off_s);
+        motors_rest_ = now + from_seconds(config().motion.idle_off_s);
     }
 }
 
 int Printer::own_fan_percent() const {
-    const BoardFanConfig& fan = config_->board_fan;
+    const BoardFanConfig& fan = config().board_fan;
     if (!fan.automatic || now() < power_on_ + from_seconds(fan.starts_s)) {
         return fan.percent;
     }

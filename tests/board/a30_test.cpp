@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "tests/support/board_driver.h"
 #include "tests/support/sliced_file.h"
@@ -29,8 +30,9 @@ class DatedDisk final : public machine::Volume {
     bool list(std::string_view, std::vector<machine::CardEntry>& out) const override {
         for (std::size_t i = 0; i < names.size(); ++i) {
             const bool folder = names[i].ends_with('/');
-            out.push_back({names[i].substr(0, names[i].size() - (folder ? 1 : 0)), folder, 7,
-                           static_cast<std::int64_t>(i)});
+            machine::CardEntry entry{names[i].substr(0, names[i].size() - (folder ? 1 : 0)), folder, 7};
+            entry.modified_s = static_cast<std::int64_t>(i);
+            out.push_back(std::move(entry));
         }
         return true;
     }
