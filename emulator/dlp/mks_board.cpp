@@ -220,9 +220,10 @@ void MksBoard::write_block(Block block, SimTime now) {
 }
 
 bool MksBoard::print_file(const std::string& path, SimTime now) {
-    if (dozing_ || !ready()) {
+    if (!ready()) {
         return false;
     }
+    wake(now);  // who starts a print does not wait for a touch
     if (uv_test.light() || uv_test.display()) {
         uv_test.leave(now);
         uv_test.advance(uv_test.next_event() == never ? now : uv_test.next_event());
