@@ -65,7 +65,7 @@ TEST_CASE("a world is its seed: the same bytes again, and others for another") {
 }
 
 TEST_CASE("a broken promise shrinks to what breaks it, and its report plays again") {
-    Cast cast = cast_of("geeetech-a30t");
+    Cast cast = cast_of("elegoo-mars-pro");
     // A line that never answers so needs nothing to happen before.
     cast.probes[static_cast<std::size_t>(behaviour::Channel::main)] = Probe{"M105", "what no board says"};
     const Outcome outcome = play(cast, 3, whole(20));
@@ -73,7 +73,7 @@ TEST_CASE("a broken promise shrinks to what breaks it, and its report plays agai
     const std::vector<std::uint64_t> fewest = shrink(cast, 3, whole(20));
     CHECK(fewest.empty());
     const std::string told = report(cast, 3, fewest);
-    CHECK(told.find("profile geeetech-a30t, seed 3") == 0);
+    CHECK(told.find("profile elegoo-mars-pro, seed 3") == 0);
     CHECK(told.find("every line answers") != std::string::npos);
 }
 
