@@ -156,6 +156,7 @@ class Board final : private behaviour::NoticeSink, private machine::FileCommands
     void clear_output() {
         for (Port& port : ports_) {
             port.output.clear();
+            port.deaf_at = nowhen;  // whoever was told of a bad line may send it again, at this very moment
         }
     }
     /// The moment of the last thing done.

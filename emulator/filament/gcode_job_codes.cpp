@@ -99,6 +99,7 @@ constexpr auto table = std::to_array<GcodeCode>({
     {'M', 0, rest, wait_for_user},
     {'M', 1, rest, wait_for_user},
     {'M', 25, nothing, [](GcodeSource& r, Line) { r.on.control.pause_job(true); }},
+    {'M', 73, nothing, ignore},
     {'M', 110, nothing, set_line_number},
     {'M', 112, nothing, [](GcodeSource& r, Line) { r.on.control.kill(); }},
     {'M', 113, nothing, keepalive},

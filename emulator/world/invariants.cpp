@@ -49,9 +49,9 @@ std::string whole_lines(const View& view) {
     return view.output.ends_with('\n') ? "" : "output ends in the middle of a line";
 }
 
-/// The USB side says an unknown command back as it came, as the firmware does.
+/// Where hosts are spoken to, an unknown command is said back as it came, as the firmware does.
 std::string plain_lines(const View& view) {
-    if (view.channel != board::Channel::main) {
+    if (!is_framed(view)) {
         return {};
     }
     return each_line(view.output, [](std::string_view line) -> std::string {

@@ -84,6 +84,7 @@ struct ActionRow {
 const std::vector<ActionRow>& machine_action_rows();
 const std::vector<ActionRow>& device_action_rows();
 const std::vector<ActionRow>& fault_action_rows();
+const std::vector<ActionRow>& host_action_rows();
 /// Of a resin printer.
 const std::vector<ActionRow>& resin_action_rows();
 const std::vector<ActionRow>& transfer_action_rows();

@@ -7,8 +7,8 @@
 using namespace fauxboard::testing;
 
 TEST_CASE("actions: each does what its row says") {
-    for (const auto* rows :
-         {&machine_action_rows(), &device_action_rows(), &fault_action_rows(), &transfer_action_rows()}) {
+    for (const auto* rows : {&machine_action_rows(), &device_action_rows(), &fault_action_rows(),
+                             &host_action_rows(), &transfer_action_rows()}) {
         for (const ActionRow& row : *rows) {
             CAPTURE(row.action);
             Bench bench;
@@ -44,7 +44,7 @@ TEST_CASE("actions: those of a resin printer are refused by any other") {
 TEST_CASE("actions: none is left out of the tests above, and every one has its words") {
     std::set<std::string_view> tested;
     for (const auto* rows : {&machine_action_rows(), &device_action_rows(), &fault_action_rows(),
-                             &resin_action_rows(), &transfer_action_rows()}) {
+                             &host_action_rows(), &resin_action_rows(), &transfer_action_rows()}) {
         for (const ActionRow& row : *rows) {
             CHECK(tested.insert(row.action).second);
         }

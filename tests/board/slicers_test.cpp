@@ -117,7 +117,7 @@ TEST_CASE("slicers: a whole file of each prints; both lines are told its layers,
                            static_cast<double>(screen_progress)) < 6);
         }
         CHECK(screen_progress > 50);
-        CHECK(layer == 12);
+        CHECK(layer >= 11);  // the last one may be over between two looks
         driver.run_for(1);
         CHECK(number_behind(print.l3(), "PG:") == 100);
         CHECK(number_behind(print.l3(), "LA:") == 12);

@@ -68,7 +68,9 @@ TEST_CASE("settings files: every vector") {
         }
         const auto got = values_of(settings, Firmware::v001);
         REQUIRE(got.size() == expected.size());
-        for (const auto& [name, value] : expected) {
+        for (const auto& entry : expected) {
+            const std::string& name = entry.first;
+            const double value = entry.second;
             INFO(name);
             // Measures are floats on the board.
             CHECK((got.at(name) == value || static_cast<float>(got.at(name)) == static_cast<float>(value)));

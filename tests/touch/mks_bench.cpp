@@ -42,7 +42,7 @@ bool OrderedStick::list(std::string_view folder, std::vector<machine::CardEntry>
         const bool is_folder = name.ends_with('/');
         if (is_folder) name.pop_back();
         if (name.find('/') != std::string::npos) continue;
-        out.push_back({name, is_folder, one.bytes.size(), one.modified_s});
+        out.push_back({name, is_folder, one.bytes.size(), 0, {}, one.modified_s});
     }
     return true;
 }
