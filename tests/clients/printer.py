@@ -14,7 +14,7 @@ class Printer(printcore):
     """A lost line, or a lost `ok`, makes printcore wait for ever; its users press a button then. Here the next
     line goes out when nothing came for `patience_s`: the numbers of the lines do the rest."""
 
-    def __init__(self, port, patience_s=0.25):
+    def __init__(self, port, patience_s=0.05):
         super().__init__()
         self.heard = []
         self.errors = []
