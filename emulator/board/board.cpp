@@ -278,6 +278,7 @@ void Board::run_tick() {
 SimTime Board::advance(SimTime now) {
     while (quiet()) {
         run_host();  // what its output had no room for may go on
+        run_own_requests();
         const SimTime due = next_due();
         if (due > now) {
             time_ = std::max(time_, now);

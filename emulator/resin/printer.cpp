@@ -59,6 +59,7 @@ bool Printer::restless_parts() const {
 void Printer::run_parts(SimTime now) {
     axis.advance(now, events);
     print.advance(now);
+    commands.advance(now);
     if (stick_due_ <= now) {
         stick_due_ = never;
         put_in(0);

@@ -29,6 +29,7 @@ void ResinCommands::begin(const Volume& volume, std::string path, SimTime now) {
     volume_ = &volume;
     path_ = std::move(path);
     offset_ = 0;
+    line_.reset();
     due_ = now + line_time;
 }
 
@@ -45,18 +46,21 @@ std::optional<std::string> ResinCommands::read_line() {
     return std::string(text.substr(0, std::min(text.find(';'), end)));
 }
 
-std::optional<std::string> ResinCommands::take(SimTime now) {
-    if (!running() || due_ > now || axis_.busy()) {
-        return std::nullopt;
+void ResinCommands::advance(SimTime now) {
+    if (next_event() > now) {
+        return;
     }
-    due_ = now + line_time;
-    auto line = read_line();
-    if (!line) {
+    line_ = read_line();
+    if (!line_) {
         stop();
-    } else if (line->find_first_not_of(" \t") == std::string::npos) {
-        line->clear();
     }
-    return line;
+}
+
+std::optional<std::string> ResinCommands::take(SimTime now) {
+    if (line_) {
+        due_ = now + line_time;
+    }
+    return std::exchange(line_, std::nullopt);
 }
 
 }  // namespace fauxboard::resin

@@ -22,11 +22,16 @@ class ResinCommands {
     /// Begins with a file's first line. `volume` is used until the end, which comes also when it can no
     /// longer be read.
     void begin(const Volume& volume, std::string path, SimTime now);
-    void stop() { volume_ = nullptr; }
+    void stop() {
+        volume_ = nullptr;
+        line_.reset();
+    }
     bool running() const { return volume_ != nullptr; }
-    /// When the next line may be taken; a line that waits for the axis has no time of its own.
-    SimTime next_event() const { return running() && !axis_.busy() ? due_ : never; }
-    /// The next line without its comment, if it is due and nothing moves. Blank ones are passed over.
+    /// Reads the next line when it is due and nothing moves.
+    void advance(SimTime now);
+    /// When the next line is due; one that waits for the axis, or to be taken, has no time of its own.
+    SimTime next_event() const { return running() && !line_ && !axis_.busy() ? due_ : never; }
+    /// The line that was read, without its comment; it may be blank. The next one is due from `now` on.
     std::optional<std::string> take(SimTime now);
 
   private:
@@ -37,6 +42,7 @@ class ResinCommands {
     std::string path_;
     std::uint64_t offset_ = 0;
     SimTime due_{0};
+    std::optional<std::string> line_;  ///< read, and not taken yet
 };
 
 }  // namespace fauxboard::resin
