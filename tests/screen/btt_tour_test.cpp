@@ -98,7 +98,7 @@ TEST_CASE("each fatal input, said by a profile of one's own, is named with its r
          {},
          Verdict::ignored,
          "only with \"@\", \"T0:\" or \"T:0\""},
-        {R"("frames": {"M115": "Cap:AUTOREPORT_TEMP:1"})",
+        {R"("frames": {"M115": "Cap:EEPROM:1"})",
          {},
          Verdict::part_missed,
          "no FIRMWARE_NAME line before it"},

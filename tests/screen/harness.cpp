@@ -82,14 +82,25 @@ std::string Bench::press(std::string_view path) {
 
 namespace {
 
+/// More than this at once takes its time on the wire, at 115200 bit/s.
+constexpr std::size_t wire_piece = 1152;
+constexpr SimTime wire_time{100'000};
+
 /// Carries what each says to the other until `done` or the limit; `advance` is the screen's or its tour's.
 SimTime carry(board::Board& board, screen::Screen& screen, SimTime now, SimTime limit,
               const std::function<SimTime(SimTime)>& advance, const std::function<bool()>& done) {
     while (!done() && now < limit) {
         const SimTime board_next = board.advance(now);
         if (!board.output().empty()) {
-            screen.receive(now, board.output());
+            const std::string bytes(board.output());
             board.clear_output();
+            for (std::size_t at = 0; at < bytes.size(); at += wire_piece) {
+                if (at != 0) {
+                    now += wire_time;
+                    advance(now);
+                }
+                screen.receive(now, std::string_view(bytes).substr(at, wire_piece));
+            }
             continue;
         }
         const SimTime screen_next = advance(now);
