@@ -12,9 +12,14 @@ logging.disable(logging.WARNING)  # its parser says at each start that it is the
 
 class Printer(printcore):
     """A lost line, or a lost `ok`, makes printcore wait for ever; its users press a button then. Here the next
-    line goes out when nothing came for `patience_s`: the numbers of the lines do the rest."""
+    line goes out when nothing came for `patience_s`: the numbers of the lines do the rest.
+
+    It also sends two lines for one error, at `Resend:` and at the `ok` behind it, so that ever more of them are
+    under way and each error costs more; here the `ok` counts alone."""
 
     def __init__(self, port, patience_s=0.05):
+        self.at_resend = False
+        self.may_send = 0
         super().__init__()
         self.heard = []
         self.errors = []
@@ -26,8 +31,21 @@ class Printer(printcore):
         threading.Thread(target=self.watch, daemon=True).start()
         self.connect(port, 115200)
 
+    @property
+    def clear(self):
+        """Whether the next line may go out."""
+        return self.may_send
+
+    @clear.setter
+    def clear(self, value):
+        if value and self.at_resend:
+            self.at_resend = False
+        else:
+            self.may_send = value
+
     def hear(self, line):
         self.last = time.monotonic()
+        self.at_resend = line.startswith("Resend")
         self.heard.append(line.rstrip())
         if len(self.heard) > 100_000:
             del self.heard[:50_000]
@@ -64,4 +82,7 @@ class Printer(printcore):
 
     def leave(self):
         self.gone.set()
+        self.printing = False
+        # Its print thread starts the sender again, and must not be met in the middle of that.
+        self.until(lambda: self.print_thread is None and self.send_thread and self.send_thread.is_alive(), "its end")
         self.disconnect()
