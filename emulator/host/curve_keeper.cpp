@@ -11,14 +11,15 @@ namespace {
 
 using control::Json;
 
-/// Which fields make a curve, told by what the tables say of them; no board needs to be named.
+/// Which fields make a curve: temperatures of any name, and what moves while a print grows.
 struct Rule {
     std::string_view unit;
     std::string_view ending;
 };
-constexpr std::array rules{Rule{"C", ".true"},   Rule{"C", ".target"},  Rule{"C", ".temperature"},
-                           Rule{"mm", ".z"},     Rule{"mm", ".height"}, Rule{"%", ".progress"},
-                           Rule{"%", ".percent"}};
+constexpr std::array rules{Rule{"C", ".true"},        Rule{"C", ".target"},
+                           Rule{"C", ".temperature"}, Rule{"mm", "position.z"},
+                           Rule{"mm", "resin.z"},     Rule{"mm", "platform.height"},
+                           Rule{"%", "job.progress"}, Rule{"%", "print.percent"}};
 
 bool makes_curve(const behaviour::Field& field) {
     const bool asked_for = field.path.ends_with(".target");

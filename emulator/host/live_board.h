@@ -29,9 +29,12 @@ class LiveBoard final : public link::LinkListener {
     /// called from inside a call of the board or of `use`.
     void visit(const std::function<void(board::Board& board, SimTime now)>& use);
     /// Somebody who watches the machine: called from the event loop when the time that it last returned has
-    /// come, and soon after each visit(), with the board and its machine brought up to that time. Set before
-    /// start().
-    void follow(std::function<SimTime(SimTime now)> follower) { follower_ = std::move(follower); }
+    /// come, first at power-on, and soon after each visit(), with the board and its machine brought up to
+    /// that time. Set before start().
+    void follow(std::function<SimTime(SimTime now)> follower) {
+        follower_ = std::move(follower);
+        show_due_ = follower_ ? SimTime{0} : machine::never;
+    }
     /// Where the board's datagrams go: called with whom each is for; nothing drops them.
     void on_datagrams(std::function<void(std::uint64_t peer, std::string_view bytes)> sender) {
         datagram_sender_ = std::move(sender);

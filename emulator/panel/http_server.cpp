@@ -18,7 +18,7 @@ using Clock = link::Timer::Clock;
 
 constexpr std::size_t stream_block = 16UL * 1024;
 /// Of the time, the page's requests get one part and the boards this many, should it come to that.
-constexpr int parts_for_others = 4;
+constexpr int parts_for_others = 9;
 
 struct Header {
     const char* name;

@@ -173,7 +173,8 @@ FleetChild::FleetChild(const std::string& program, const std::string& file,
                        const std::vector<std::string>& arguments) {
     std::vector<std::string> all{"fleet", file, "--quiet"};
     all.insert(all.end(), arguments.begin(), arguments.end());
-    for (const auto& board : start(program, all).at("boards")) {
+    const nlohmann::json ready = start(program, all);
+    for (const auto& board : ready.at("boards")) {
         paths_.push_back(board.at("path").get<std::string>());
     }
     path_ = paths_.front();

@@ -5,6 +5,7 @@ import {h, say, show, save, time_text, unit_text} from './dom.js';
 export const title = 'Curves';
 
 const most_points = 4000;
+const order = ['C', 'mm', '%'];  // what is looked at most stands first
 const colours = ['--c1', '--c2', '--c3', '--c4', '--c5', '--c6', '--c7', '--c8'];
 let library = null;
 
@@ -44,7 +45,8 @@ export function mount(root, board, {small = false} = {}) {
             if (!by_unit.has(unit)) by_unit.set(unit, []);
             by_unit.get(unit).push(column);
         }
-        const groups = [...by_unit.entries()];
+        const place = unit => order.includes(unit) ? order.indexOf(unit) : order.length;
+        const groups = [...by_unit.entries()].sort(([a], [b]) => place(a) - place(b));
         charts = (small ? groups.slice(0, 1) : groups).map(([unit, group]) => chart(unit, group));
         if (charts.length === 0) area.append(h('p', {class: 'empty'}, 'This machine has nothing that draws a curve.'));
         add(board.state);
