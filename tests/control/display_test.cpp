@@ -51,16 +51,16 @@ TEST_CASE("touch answers when the finger is off again") {
 TEST_CASE("wrong touches are told") {
     Bench bench;
     Client client(bench);
-    CHECK(client.code(R"({"op": "page"})") == "not_here");
-    CHECK(client.code(R"({"op": "touch", "control": "Files"})") == "not_here");
+    CHECK(client.code(R"({"op": "page"})") == "not-here");
+    CHECK(client.code(R"({"op": "touch", "control": "Files"})") == "not-here");
     Noting screen;
     bench.shown = &screen;
-    CHECK(client.code(R"({"op": "touch"})") == "bad_arguments");
-    CHECK(client.code(R"({"op": "touch", "x": 1})") == "bad_arguments");
-    CHECK(client.code(R"({"op": "touch", "x": 1.5, "y": 2})") == "bad_arguments");
-    CHECK(client.code(R"({"op": "touch", "x": 1e9, "y": 2})") == "bad_arguments");
-    CHECK(client.code(R"({"op": "touch", "control": "Files", "x": 1, "y": 2})") == "bad_arguments");
-    CHECK(client.code(R"({"op": "touch", "control": "Files", "for": "11min"})") == "out_of_range");
+    CHECK(client.code(R"({"op": "touch"})") == "bad-arguments");
+    CHECK(client.code(R"({"op": "touch", "x": 1})") == "bad-arguments");
+    CHECK(client.code(R"({"op": "touch", "x": 1.5, "y": 2})") == "bad-arguments");
+    CHECK(client.code(R"({"op": "touch", "x": 1e9, "y": 2})") == "bad-arguments");
+    CHECK(client.code(R"({"op": "touch", "control": "Files", "x": 1, "y": 2})") == "bad-arguments");
+    CHECK(client.code(R"({"op": "touch", "control": "Files", "for": "11min"})") == "out-of-range");
     CHECK(client.code(R"({"op": "touch", "control": "Nowhere"})") == "refused");
     CHECK(client.code(R"({"op": "touch", "x": 480, "y": 0})") == "refused");
 }

@@ -17,7 +17,7 @@ struct OwnScreen {
 
     TemporaryFolder folder;
     std::string control = folder.file("control");
-    Program program{{"run", "-q", "--profile", "mks-dlp", "--control", control, "--speed", "20"}};
+    Program program{{"run", "-q", "--profile", "mks-dlp", "--control", control, "--speed", "3"}};
     nlohmann::json where = program.ready();
 };
 

@@ -158,4 +158,23 @@ std::string file_s1(std::uint32_t layers) {
     return bytes;
 }
 
+std::string tall_file(std::uint32_t layers) {
+    std::string bytes = file_s1(1);
+    const std::size_t table = bytes.find("LAYERDEF");
+    const auto put = [](std::string& to, std::size_t at, std::uint32_t value) {
+        std::memcpy(to.data() + at, &value, sizeof value);
+    };
+    std::uint32_t length = 0;
+    std::memcpy(&length, bytes.data() + table + 12, sizeof length);
+    std::string longer = bytes.substr(table, 20);
+    const std::string record = bytes.substr(table + 20, 32);
+    put(longer, 12, length + (layers - 1) * 32);
+    put(longer, 16, layers);
+    for (std::uint32_t n = 0; n < layers; ++n) {
+        longer += record;
+    }
+    put(bytes, 36, static_cast<std::uint32_t>(bytes.size()));  // where the file says its table is
+    return bytes + longer;
+}
+
 }  // namespace fauxboard::testing

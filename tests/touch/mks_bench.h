@@ -70,5 +70,7 @@ class MksBench : public MksWorld, public TouchBench {
 
 /// The file that the checks speak of: 100 layers of 0.05 mm, 7 s, bottom 40 s x 5.
 std::string file_s1(std::uint32_t layers = 100);
+/// The same with so many layers that are all one picture: small, however many.
+std::string tall_file(std::uint32_t layers);
 
 }  // namespace fauxboard::testing

@@ -93,9 +93,9 @@ TEST_CASE("check 3: files as tiles, four a page, in the stick's own order") {
     CHECK_FALSE(bench.enabled("Page down"));
     bench.tap(432, 211);
     CHECK(shows(bench, {"a.pws", "d.photon", "f.cbddlp", "g.acfg"}));
-    CHECK(bench.label("Tile 3").empty());
     // An empty tile is there, beeps and does nothing; a picture file does nothing.
     bench.tap(432, 279);
+    CHECK(bench.label("Tile 3").empty());
     bench.tap(283, 250);
     bench.tap(283, 130);
     CHECK(bench.title() == "FILES");
@@ -124,16 +124,16 @@ TEST_CASE("check 4: files as a list") {
 }
 
 TEST_CASE("check 5: what is known of a file before it is printed") {
-    MksBench bench(with_s1(2'500'000));
+    MksBench bench(with_s1(3'500'000));
     bench.run_to_main();
     bench.open("s1.pws");
     CHECK(shows(bench, {"100", "00:36", "0.050 mm", "1", "7.0 sec", "40.0 sec", "0.5 sec", "5.0 mm", "2.0 mm/sec",
-                        "4.0 mm/sec", "12.3 ml", "No", "2.50 MB", "02:56  09/09/2020"}));
+                        "4.0 mm/sec", "12.3 ml", "No", "3.50 MB", "02:56  09/09/2020"}));
 }
 
 TEST_CASE("check 6: a model that is too high is red, and asked about") {
     for (const std::uint32_t layers : {3500U, 3501U}) {
-        MksBench bench(world_of({{"high.pws", file_s1(layers), 0}}));
+        MksBench bench(world_of({{"high.pws", tall_file(layers), 0}}));
         bench.run_to_main();
         bench.open("high.pws");
         const bool too_high = layers == 3501;
@@ -191,6 +191,10 @@ TEST_CASE("checks 8 and 9: a pause in the first exposure, and going on") {
     CHECK(bench.field("print.elapsed_s") == elapsed);
     CHECK(bench.field("platform.height") == doctest::Approx(45.10).epsilon(1e-4));
 
+    // Nobody has touched it for longer than a minute: the first touch only lifts the screensaver.
+    CHECK(bench.page() == "Screensaver");
+    bench.tap(400, 67);
+    CHECK(bench.has_text("PAUSE"));
     bench.tap("Pause");
     CHECK(bench.has_text("PRINTING"));
     REQUIRE(bench.run_until_field("lamp.on", 1, 100));
@@ -344,7 +348,11 @@ TEST_CASE("check 16: the UV test") {
     // The light goes out by itself after two minutes, and its label with it.
     bench.tap("UV test");
     bench.tap("Light");
-    bench.run_for(121);
+    bench.run_for(50);
+    bench.tap(479, 319);  // no control, but no screensaver either
+    bench.run_for(50);
+    bench.tap(479, 319);
+    bench.run_for(21);
     CHECK(bench.label("Light") == "Light: OFF");
 }
 

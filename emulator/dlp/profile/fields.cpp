@@ -314,7 +314,7 @@ constexpr std::array clock_rows{
 };
 
 /// A parameter of settings files as a field: setup.NAME, as it is in force. One that is told in the unit of the
-/// file can be set, too, within the bounds that hold for the file.
+/// file, as all but times are, can be set, too, within the bounds that hold for the file.
 template <std::size_t I>
 Field parameter_row() {
     static const std::string path = "setup." + std::string(parameters()[I].value_name);
@@ -323,7 +323,7 @@ Field parameter_row() {
         return parameters()[I].since <= p.board.config().firmware ? parameters()[I].get(p.board.settings)
                                                                   : 0.0;
     };
-    if (parameter.value_name != parameter.name) {
+    if (parameter.unit == "ms") {
         return row.shown(path, number, parameter.unit, parameter.help, get);
     }
     constexpr double most = 1e9;
