@@ -8,8 +8,8 @@ say() { printf '\n== %s\n' "$*"; }
 # What the program is built with, and what its tests want besides.
 build_packages=(clang g++ cmake ninja-build pkg-config libserialport-dev nlohmann-json3-dev libfmt-dev
                 libcli11-dev libncurses-dev libre2-dev libpng-dev libmicrohttpd-dev libjs-dygraphs
-                libfreetype-dev fonts-dejavu-core libmd-dev doctest-dev libbenchmark-dev)
-test_packages=(libclang-rt-dev printrun-common python3-serial)
+                libfreetype-dev fonts-dejavu-core libmd-dev)
+test_packages=(doctest-dev libbenchmark-dev libclang-rt-dev printrun-common python3-serial)
 # Of these only the files are taken: what they depend on is for uses that nobody has here.
 header_packages=(libvalijson-dev)
 
