@@ -39,14 +39,6 @@ long number_behind(const std::string& line, std::string_view key) {
     return value;
 }
 
-double count_of(std::string_view text, std::string_view what) {
-    double count = 0;
-    for (std::size_t at = text.find(what); at != std::string_view::npos; at = text.find(what, at + 1)) {
-        ++count;
-    }
-    return count;
-}
-
 struct Print {
     MemoryDisk disk;
     BoardDriver driver;

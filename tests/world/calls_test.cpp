@@ -5,7 +5,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
-#include <sys/pidfd.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -145,7 +145,7 @@ class Life {
     }
 
     static int wait(pid_t pid) {
-        const link::UniqueFd process(::pidfd_open(pid, 0));
+        const link::UniqueFd process(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)));
         pollfd entry{.fd = process.get(), .events = POLLIN, .revents = 0};
         if (::poll(&entry, 1, patience_ms) <= 0) {
             ::kill(pid, SIGKILL);
