@@ -330,11 +330,13 @@ Field parameter_row() {
     if (parameter.unit == "ms") {
         return row.shown(path, number, parameter.unit, parameter.help, get);
     }
-    constexpr double most = 1e9;
+    constexpr double furthest = 1e9;  // of a parameter that files do not bound
     return row.handled(
-        path, number, parameter.unit, -most, most, parameter.help, get, [](Printer& p, const Value& v) {
-            static_cast<void>(parameters()[I].take(
-                p.board.settings, read_number(fmt::format("{:.6f}", v.number)), p.board.config().firmware));
+        path, parameter.whole ? integer : number, parameter.unit, std::max(parameter.least, -furthest),
+        std::min(parameter.most, furthest), parameter.help, get, [](Printer& p, const Value& v) {
+            const Parameter& own = parameters()[I];
+            static_cast<void>(own.take(p.board.settings, read_number(fmt::format("{:.6f}", v.number)), own,
+                                       p.board.config().firmware));
         });
 }
 
