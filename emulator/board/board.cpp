@@ -216,7 +216,11 @@ void Board::take_line(Channel channel, std::string_view line) {
     }
     tell_received(channel, line, verdict);
     if (verdict == Verdict::accepted && !waits) {
-        machine_->advance(time_);
+        if (std::exchange(idle_before_, nowhen) > time_) {
+            machine_->pass(time_);
+        } else {
+            machine_->advance(time_);
+        }
         execute(channel, body);
         settle();
         run_host();
@@ -354,7 +358,7 @@ void Board::step(SimTime due) {
 
 void Board::catch_up(SimTime now) {
     // With so much output untaken the slots stand still; they go on, late, when it has been taken.
-    while (nothing_before() < now && port(Channel::main).output.size() < output_limit) {
+    while ((idle_before_ = nothing_before()) < now && port(Channel::main).output.size() < output_limit) {
         const SimTime due = next_due();
         if (due >= now) {
             // Nothing comes of the slots up to here. They are gone through now, else the next call would find

@@ -77,6 +77,10 @@ void Machine::advance(SimTime now) {
         }
         run_parts(next);
     }
+    pass(now);
+}
+
+void Machine::pass(SimTime now) {
     let_pass(now);
     now_ = now;
     faults.advance(now);  // what somebody has seen to is over
