@@ -32,7 +32,8 @@ struct Broken : std::runtime_error {
 /// changes nothing of it. Every call may throw Broken.
 class World final : private board::Observer {
   public:
-    World(const Cast& cast, std::uint64_t seed);
+    /// `listener`, which may be null, is told what is heard and said as well.
+    World(const Cast& cast, std::uint64_t seed, board::Observer* listener = nullptr);
     ~World() override;
 
     /// Lets some time pass, and does the thing of that number.
@@ -77,6 +78,7 @@ class World final : private board::Observer {
                      board::Verdict verdict) override;
     void on_sent(SimTime now, board::Channel channel, std::string_view line) override;
     void on_notice(SimTime now, board::Level level, std::string_view text) override;
+    void on_power_on(SimTime now) override;
     void on_event(SimTime now, machine::EventId event) override;
 
     void make_board();
@@ -91,6 +93,7 @@ class World final : private board::Observer {
 
     const Cast& cast_;
     std::uint64_t seed_;
+    board::Observer* listener_;
     Disk disk_;
     Eeprom eeprom_;
     JobPlace job_place_;
