@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "emulator/behaviour/nearest.h"
+#include "emulator/behaviour/parse_json.h"
 #include "emulator/behaviour/profile.h"
 #include "emulator/host/profile_files.h"
 #include "emulator/host/screen_files.h"
@@ -61,7 +62,7 @@ std::optional<SourceText> find(const std::string& file) {
 std::optional<nlohmann::json> load_schema(std::string_view schema_file) {
     for (const fs::path& folder : host::profile_folders()) {
         if (const auto source = host::read_source(folder / "schemas" / schema_file)) {
-            auto schema = nlohmann::json::parse(source->text, nullptr, false);
+            nlohmann::json schema = behaviour::parse_json(source->text);
             if (schema.is_object()) {
                 return schema;
             }
@@ -115,7 +116,7 @@ void check_form(const behaviour::Document& document, const SourceText& source, c
         return;
     }
     const std::vector<Problem> by_loader = out.problems;
-    for (const SchemaError& error : check_schema(*schema, nlohmann::json::parse(source.text))) {
+    for (const SchemaError& error : check_schema(*schema, behaviour::parse_json(source.text))) {
         if (!told(by_loader, source.name, error.pointer)) {
             out.problems.push_back(document.problem(error.pointer, "against the schema: " + error.message));
         }

@@ -21,8 +21,8 @@ DeclaredOption describe(const CLI::Option& option) {
     return out;
 }
 
-/// The commands below `command`, or (`named` false) its groups of options, which the library keeps as commands without
-/// a name.
+/// The commands below `command`, or (`named` false) its groups of options, which the library keeps as
+/// commands without a name.
 std::vector<const CLI::App*> children(const CLI::App& command, bool named) {
     return command.get_subcommands([named](const CLI::App* sub) { return sub->get_name().empty() != named; });
 }
@@ -49,14 +49,32 @@ std::string sentence(const CLI::App& command, std::string_view what, const std::
     return text;
 }
 
-/// The option that `word` names, of this command; null for none.
-const CLI::Option* option_of(const CLI::App& command, std::string_view word) {
-    const std::string name(word.substr(0, word.find('=')));
+/// The command that takes what `command` does not know, as the library has it; null for none.
+const CLI::App* falls_through_to(const CLI::App& command) {
+    const CLI::App* to = command.get_fallthrough() ? command.get_parent() : nullptr;
+    while (to != nullptr && to->get_name().empty() && to->get_parent() != nullptr) {
+        to = to->get_parent();
+    }
+    return to;
+}
+
+const CLI::Option* own_option(const CLI::App& command, const std::string& name) {
     if (const CLI::Option* const option = command.get_option_no_throw(name); option != nullptr) {
         return option;
     }
     for (const CLI::App* group : children(command, false)) {
-        if (const CLI::Option* const option = option_of(*group, word); option != nullptr) {
+        if (const CLI::Option* const option = own_option(*group, name); option != nullptr) {
+            return option;
+        }
+    }
+    return nullptr;
+}
+
+/// The option that `word` names, of this command or of one that it falls through to; null for none.
+const CLI::Option* option_of(const CLI::App& command, std::string_view word) {
+    const std::string name(word.substr(0, word.find('=')));
+    for (const CLI::App* at = &command; at != nullptr; at = falls_through_to(*at)) {
+        if (const CLI::Option* const option = own_option(*at, name); option != nullptr) {
             return option;
         }
     }
@@ -65,8 +83,10 @@ const CLI::Option* option_of(const CLI::App& command, std::string_view word) {
 
 std::string unknown_option(const CLI::App& command, const std::string& word) {
     std::vector<std::string> known;
-    for (const DeclaredOption& option : declared_options(command)) {
-        known.insert(known.end(), option.names.begin(), option.names.end());
+    for (const CLI::App* at = &command; at != nullptr; at = falls_through_to(*at)) {
+        for (const DeclaredOption& option : declared_options(*at)) {
+            known.insert(known.end(), option.names.begin(), option.names.end());
+        }
     }
     return sentence(command, "option", word.substr(0, word.find('=')), known, false);
 }
@@ -133,7 +153,8 @@ std::string unknown_word(const CLI::App& app, const std::vector<std::string>& wo
             if (option == nullptr) {
                 return unknown_option(*command, word);
             }
-            const bool takes_next = option->get_items_expected_min() > 0 && word.find('=') == std::string::npos;
+            const bool takes_next =
+                option->get_items_expected_min() > 0 && word.find('=') == std::string::npos;
             i += takes_next ? 1 : 0;
         } else if (word.starts_with('-') || commands_of(*command).empty()) {
             continue;  // the library's own business

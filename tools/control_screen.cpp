@@ -1,5 +1,6 @@
 #include "tools/control_screen.h"
 
+#include "emulator/behaviour/parse_json.h"
 #include "emulator/control/base64.h"
 #include "emulator/host/profile_files.h"
 #include "emulator/host/screen_files.h"
@@ -11,7 +12,7 @@ Json ControlScreen::ask(const Json& request) {
     std::string line;
     client_.ask(request);
     while (client_.receive(line) == ControlClient::Got::line) {
-        Json answer = Json::parse(line, nullptr, false);
+        Json answer = behaviour::parse_json(line);
         if (answer.is_object() && answer.contains("ok")) {
             return answer;
         }

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "emulator/behaviour/fields.h"
+#include "emulator/behaviour/parse_json.h"
 #include "emulator/control/base64.h"
 #include "emulator/host/time_text.h"
 #include "emulator/link/link.h"
@@ -74,7 +75,7 @@ ExitCode next(const Ctl& ctl, ControlClient& client, bool events, Json& out, std
             case ControlClient::Got::line:
                 break;
         }
-        out = Json::parse(line, nullptr, false);
+        out = behaviour::parse_json(line);
         if (!out.is_object() || out.contains("event") == out.contains("ok")) {
             return complain("ctl", ExitCode::failed, ctl.path + " is no control channel of a board.");
         }
@@ -138,7 +139,7 @@ ExitCode watch(const Ctl& ctl, ControlClient& client) {
         if (got != ControlClient::Got::line) {
             return answers < ctl.subscriptions.size() ? gone(ctl) : ExitCode::ok;
         }
-        json = Json::parse(line, nullptr, false);
+        json = behaviour::parse_json(line);
         if (json.is_object() && json.contains("event")) {
             ++events;
             print(ctl.json ? line + "\n" : event_text(json));
@@ -174,7 +175,7 @@ ExitCode ctl_main(const Ctl& ctl) {
 /// "60", "true", "\"text\"" are what they are in JSON; all else, and whatever is for a text, is a text.
 Json value_of(const std::string& path, const std::string& text) {
     const behaviour::Field* field = behaviour::find_field(path);
-    const Json parsed = Json::parse(text, nullptr, false);
+    const Json parsed = behaviour::parse_json(text);
     const bool wants_text = field != nullptr && field->type == behaviour::FieldType::text;
     return !wants_text && (parsed.is_number() || parsed.is_boolean()) ? parsed : Json(text);
 }
@@ -195,7 +196,7 @@ Json action_of(const Ctl& ctl) {
     if (ctl.arguments.empty()) {
         return ctl.action;
     }
-    Json arguments = Json::parse(ctl.arguments, nullptr, false);
+    Json arguments = behaviour::parse_json(ctl.arguments);
     if (!arguments.is_object()) {
         throw CLI::ValidationError("do", "'" + ctl.arguments +
                                              "' is no JSON object; expected arguments such as "
@@ -235,13 +236,13 @@ Json touch_of(std::vector<std::string> words) {
 
 /// A fault in JSON or as compact text.
 Json spec_of(const std::string& text) {
-    const Json parsed = Json::parse(text, nullptr, false);
+    const Json parsed = behaviour::parse_json(text);
     return parsed.is_object() ? parsed : Json(text);
 }
 
 /// A number of a line's fault, or a word of the printer's.
 Json id_of(const std::string& text) {
-    const Json parsed = Json::parse(text, nullptr, false);
+    const Json parsed = behaviour::parse_json(text);
     if (!parsed.is_number_unsigned() && !parsed.is_discarded()) {
         throw CLI::ValidationError("fault", "'" + text +
                                                 "' is no fault's id; expected a number or a word of `fault "

@@ -1,10 +1,11 @@
 // `fauxboard describe`: the reference, from the tables in the code.
 
 #include <algorithm>
-#include <fstream>
 #include <memory>
 #include <vector>
 
+#include "emulator/behaviour/parse_json.h"
+#include "emulator/host/profile_files.h"
 #include "tools/describe_reference.h"
 #include "tools/report.h"
 
@@ -19,8 +20,8 @@ struct DescribeArguments {
 };
 
 ExitCode describe_schema(const std::string& file) {
-    std::ifstream in(file, std::ios::binary);
-    const auto schema = nlohmann::ordered_json::parse(in, nullptr, false);
+    const auto source = host::read_source(file);
+    const behaviour::Json schema = behaviour::parse_json(source ? source->text : std::string());
     if (!schema.is_object() || !schema.contains("definitions")) {
         return complain("describe", ExitCode::bad_input, file + ": no schema of profiles");
     }

@@ -119,7 +119,12 @@ class FleetRun {
         nlohmann::ordered_json ready{{"boards", nlohmann::ordered_json::array()}};
         for (std::size_t i = 0; i < members_.size(); ++i) {
             nlohmann::ordered_json one{{"name", fleet_.boards[i].name}};
-            one.update(members_[i]->unit.ready());
+            nlohmann::ordered_json lines = members_[i]->unit.ready();
+            if (lines.contains("name")) {  // of its pty; here the name is the board's
+                lines["pty"] = std::move(lines["name"]);
+                lines.erase("name");
+            }
+            one.update(lines);
             ready["boards"].push_back(std::move(one));
         }
         if (panel_) {

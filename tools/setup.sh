@@ -6,7 +6,7 @@ top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 say() { printf '\n== %s\n' "$*"; }
 
 # What the program is built with, and what its tests want besides.
-build_packages=(clang g++ cmake ninja-build pkg-config libserialport-dev nlohmann-json3-dev libfmt-dev
+build_packages=(clang lld g++ cmake ninja-build pkg-config libserialport-dev nlohmann-json3-dev libfmt-dev
                 libcli11-dev libncurses-dev libre2-dev libpng-dev libmicrohttpd-dev libjs-dygraphs
                 libfreetype-dev fonts-dejavu-core libmd-dev)
 test_packages=(doctest-dev libbenchmark-dev libclang-rt-dev printrun-common python3-serial)

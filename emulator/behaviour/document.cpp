@@ -5,10 +5,11 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "emulator/behaviour/parse_json.h"
+
 namespace fauxboard::behaviour {
 namespace {
 
-constexpr std::size_t max_depth = 64;
 constexpr std::size_t max_chain = 8;
 
 std::string escape_pointer(std::string_view key) {
@@ -135,7 +136,7 @@ class Builder {
 
     bool open(Json v) {
         std::string where;
-        if (levels_.size() >= max_depth) {
+        if (levels_.size() >= most_levels) {
             problems.push_back(document_.problem(pointer(), "nested deeper than 64 levels"));
             return false;
         }

@@ -71,6 +71,17 @@ std::string_view nearest_field(std::string_view path) {
     return nearest(path, names);
 }
 
+namespace {
+
+/// Whole for an integer, 0 or 1 for a boolean.
+double as_type(FieldType type, double wanted) {
+    return type == FieldType::integer   ? std::round(wanted)
+           : type == FieldType::boolean ? (wanted != 0 ? 1 : 0)
+                                        : wanted;
+}
+
+}  // namespace
+
 SetResult set_field(machine::Machine& machine, const Field& field, const Value& value) {
     if (field.set == nullptr) {
         return SetResult::refused;
@@ -88,7 +99,7 @@ SetResult set_field(machine::Machine& machine, const Field& field, const Value& 
         return SetResult::refused;
     }
     const double inside = std::clamp(value.number, field.min, field.max);
-    field.set(machine, Value::of(inside));
+    field.set(machine, Value::of(as_type(field.type, inside)));
     return inside == value.number ? SetResult::done : SetResult::clamped;
 }
 

@@ -79,23 +79,21 @@ void ObjectReader::number(std::string_view key, double& out, double min, double 
     }
 }
 
-void ObjectReader::integer(std::string_view key, int& out, int min, int max) {
+template <class T>
+void ObjectReader::whole(std::string_view key, T& out, T min, T max) {
     const std::string expected = fmt::format("a whole number from {} to {}", min, max);
     if (const Json* value = typed(key, &Json::is_number, expected)) {
         const auto n = value->get<double>();
-        if (n >= min && n <= max && n == static_cast<double>(static_cast<int>(n))) {
-            out = static_cast<int>(n);
+        if (n >= min && n <= max && n == static_cast<double>(static_cast<T>(n))) {
+            out = static_cast<T>(n);
         } else {
             findings_.add(pointer(key), fmt::format("{}; expected {}", found(*value), expected));
         }
     }
 }
 
-void ObjectReader::unsigned_integer(std::string_view key, unsigned& out, unsigned min, unsigned max) {
-    int n = static_cast<int>(out);
-    integer(key, n, static_cast<int>(min), static_cast<int>(max));
-    out = static_cast<unsigned>(n);
-}
+template void ObjectReader::whole(std::string_view key, int& out, int min, int max);
+template void ObjectReader::whole(std::string_view key, unsigned& out, unsigned min, unsigned max);
 
 void ObjectReader::boolean(std::string_view key, bool& out) {
     if (const Json* value = typed(key, &Json::is_boolean, "true or false")) {

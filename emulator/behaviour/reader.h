@@ -36,8 +36,10 @@ class ObjectReader {
 
     // Each leaves `out` as it is when the key is absent or its value wrong.
     void number(std::string_view key, double& out, double min, double max);
-    void integer(std::string_view key, int& out, int min, int max);
-    void unsigned_integer(std::string_view key, unsigned& out, unsigned min, unsigned max);
+    void integer(std::string_view key, int& out, int min, int max) { whole(key, out, min, max); }
+    void unsigned_integer(std::string_view key, unsigned& out, unsigned min, unsigned max) {
+        whole(key, out, min, max);
+    }
     void boolean(std::string_view key, bool& out);
     void text(std::string_view key, std::string& out, std::size_t max_bytes = 4096);
     /// A text for the wire: its characters become single bytes (see to_wire).
@@ -56,6 +58,8 @@ class ObjectReader {
 
   private:
     const Json* typed(std::string_view key, bool (Json::*test)() const noexcept, std::string_view expected);
+    template <class T>
+    void whole(std::string_view key, T& out, T min, T max);
 
     const Json* object_ = nullptr;
     std::string pointer_;

@@ -112,6 +112,9 @@ void Board::take_command_line(Channel channel, std::string_view bytes) {
         execute(channel, urgent);
         settle(channel);
     }
+    if (machine_->hung()) {
+        return;  // that was M112: nothing is said after it
+    }
     if (verdict == Verdict::accepted) {
         counted.last = framed.numbered ? framed.number : counted.last;
         run_host();

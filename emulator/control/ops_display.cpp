@@ -62,10 +62,11 @@ Answer touch(const Call& call) {
     if (!touched.why.empty()) {
         throw ControlError(ErrorCode::refused, touched.why);
     }
-    if (touched.done > call.now) {
-        call.session.answer_at(touched.done);
+    if (touched.done <= call.now) {
+        return Json::object();
     }
-    return Json::object();
+    call.session.answer_at(touched.done);
+    return std::nullopt;
 }
 
 constexpr std::array touch_params{

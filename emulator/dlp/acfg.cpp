@@ -174,7 +174,7 @@ class AcfgReader {
         if (!numeric(value)) {
             return AcfgResult::invalid_value;
         }
-        const bool same = hit->take(settings_, read_number(value), firmware_);
+        const bool same = hit->take(settings_, read_number(value), *hit, firmware_);
         if (report_.taken.size() < AcfgReport::most_taken) {
             report_.taken.push_back({&*hit, line_, std::string(value), !same});
         }

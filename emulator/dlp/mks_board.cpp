@@ -16,9 +16,10 @@ struct StartStep {
     SimTime begin;
     std::string_view name;
 };
+constexpr SimTime panel_time = ms(300);
 constexpr std::array<StartStep, 6> start_steps{{{ms(0), "periphery"},
                                                 {ms(150), "clock"},
-                                                {ms(300), "panel_configuring"},
+                                                {panel_time, "panel_configuring"},
                                                 {ms(1200), "panel_to_sleep"},
                                                 {ms(1300), "panel_preparing"},
                                                 {ms(1850), "usb"}}};
@@ -84,7 +85,7 @@ void MksBoard::power_on(SimTime now) {
     setup_file_.clear();
     dozing_ = false;
     read_due_ = never;
-    start_panel(now);
+    panel_due_ = now + panel_time;
     files.home();
     ready_due_ = now + start_time;
 }
@@ -120,7 +121,7 @@ std::string_view MksBoard::start_step(SimTime now) const {
 
 SimTime MksBoard::next_event() const {
     return std::min({platform.next_event(), lamp.next_event(), print.next_event(), uv_test.next_event(),
-                     motor.next_event(), eeprom.next_event(), read_due_, ready_due_});
+                     motor.next_event(), eeprom.next_event(), read_due_, panel_due_, ready_due_});
 }
 
 void MksBoard::advance(SimTime now) {
@@ -138,6 +139,10 @@ void MksBoard::advance(SimTime now) {
         if (read_due_ <= next) {
             read_due_ = never;
             read_setup(next);
+        }
+        if (panel_due_ <= next) {
+            panel_due_ = never;
+            start_panel(next);
         }
         if (task_event_ && !eeprom.writing()) {
             end_setup(*task_event_);

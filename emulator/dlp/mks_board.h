@@ -127,6 +127,7 @@ class MksBoard final : private Listener {
     bool setup_opened_ = true;
     bool dozing_ = false;
     SimTime read_due_ = never;
+    SimTime panel_due_ = never;  ///< when the start comes to the panel
     SimTime ready_due_ = never;
     SimTime started_{0};
     SimTime now_{0};

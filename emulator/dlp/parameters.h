@@ -27,8 +27,11 @@ struct Parameter {
     std::string_view value_name;  ///< as it is told: times in ms
     std::string_view unit;        ///< of the value told
     std::string_view help;
-    /// Puts the number read into the settings, within its bounds. False when that changed it.
-    bool (*take)(Settings&, const NumberViews&, Firmware);
+    bool whole;    ///< a number without decimals
+    double least;  ///< in the unit of the file
+    double most;   ///< the same; a program may allow less
+    /// Puts the number read into the settings, within the bounds of its row. False when that changed it.
+    bool (*take)(Settings&, const NumberViews&, const Parameter&, Firmware);
     double (*get)(const Settings&);
     Firmware since = Firmware::v001;
 };

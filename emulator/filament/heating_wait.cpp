@@ -19,6 +19,7 @@ void HeatingWait::start(HeaterId heater, SimTime now, EventQueue& events, bool c
     cools_ = cools;
     heater_ = heater;
     counter_ = 0;
+    left_s_ = -1;
     settled_ = cooled_ = never;
     report_due_ = now;
     next_ = config_.report_s > 0 ? now : now + step;
@@ -30,10 +31,6 @@ void HeatingWait::cancel(EventQueue& events) {
         active_ = false;
         events.raise(event("heating.wait_done"));
     }
-}
-
-int HeatingWait::residency_left_s(SimTime now) const {
-    return settled_ == never ? -1 : static_cast<int>((settled_ - now) / SimTime{1'000'000});
 }
 
 void HeatingWait::report(SimTime now, EventQueue& events) {
@@ -83,6 +80,7 @@ void HeatingWait::advance(SimTime now, const Thermal& thermal, EventQueue& event
         return;
     }
     next_ += step;
+    left_s_ = settled_ == never ? -1 : static_cast<int>((settled_ - now) / SimTime{1'000'000});
     report(now, events);
     if (done(now, thermal) || gives_up(now, thermal)) {
         cancel(events);

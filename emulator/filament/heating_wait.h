@@ -35,8 +35,9 @@ class HeatingWait {
     /// Whether a temperature must hold, also one that is there already.
     bool settles() const { return config_.residency_s > 0; }
     HeaterId heater() const { return heater_; }
-    /// Whole seconds that it has still to stay there; -1: it is not there yet.
-    int residency_left_s(SimTime now) const;
+    /// Whole seconds that it has still to stay there; -1: it is not there yet. As it was when the last look
+    /// began: a report comes before what that look finds out.
+    int residency_left_s() const { return left_s_; }
     SimTime next_event() const { return active_ ? next_ : never; }
 
   private:
@@ -52,6 +53,7 @@ class HeatingWait {
     bool first_look_ = false;
     HeaterId heater_ = HeaterId::nozzle;
     std::uint8_t counter_ = 0;
+    int left_s_ = -1;
     SimTime report_due_ = never;
     SimTime settled_ = never;  ///< when it will have been there long enough
     SimTime cooled_ = never;   ///< when it is next looked whether it cools at all

@@ -217,6 +217,16 @@ void JobRunner::take_comment() {
     on_.job.estimate_s = notes_.seconds();
 }
 
+int JobRunner::layer_by_height() const {
+    constexpr float first_mm = 0.1F;  // in single precision, as on the board: 0.3 mm is one layer of 0.2 more
+    const auto height = static_cast<float>(notes_.layer_mm());
+    if (!on_.job.active() || height == 0) {
+        return on_.job.layer;
+    }
+    const auto z = static_cast<float>(on_.motion.position(Axis::z));
+    return static_cast<int>(std::max(0.0F, (z - first_mm) / height));
+}
+
 bool JobRunner::run_code(bool by_rule) {
     return filament::run_code(code_, by_rule, source_, line_);
 }

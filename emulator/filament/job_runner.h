@@ -54,6 +54,9 @@ class JobRunner : public machine::BegunCommand {
     bool run_code(bool by_rule) override;
 
     JobCounts counts() const { return {lines_, source_.moves, unknown_codes_, lines_cut_}; }
+    /// The layer as a board tells it that goes by the nozzle's height, (Z - 0.1 mm) / layer height; that of
+    /// the file's comments where none at its head says how high a layer is. 0 without a job.
+    int layer_by_height() const;
     /// The byte in the file at which the move under way begins: what a power cut loses begins here.
     std::uint64_t executed_byte() const;
 

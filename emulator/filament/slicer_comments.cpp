@@ -11,6 +11,7 @@ namespace {
 
 constexpr double most_layers = 1e6;
 constexpr double most_seconds = 1e9;
+constexpr double most_layer_mm = 100;
 
 bool digit(char c) {
     return c >= '0' && c <= '9';
@@ -90,6 +91,13 @@ void time_in_seconds(std::string_view rest, SlicerNote& note) {
         note.seconds = seconds <= most_seconds ? std::optional(seconds) : std::nullopt;
     }
 }
+void layer_height(std::string_view rest, SlicerNote& note) {
+    skip_blanks(rest);
+    if (!rest.empty() && digit(rest[0])) {
+        const double mm = take_decimal(rest);
+        note.layer_mm = mm > 0 && mm <= most_layer_mm ? std::optional(mm) : std::nullopt;
+    }
+}
 void time_in_words(std::string_view rest, SlicerNote& note) {
     note.seconds = clock_time(rest);
 }
@@ -109,6 +117,7 @@ constexpr std::array words{
     Word{"BEGIN_LAYER_OBJECT", [](std::string_view, SlicerNote& note) { note.next_layer = true; }},
     Word{"CHANGE_LAYER", [](std::string_view, SlicerNote& note) { note.next_layer = true; }},
     Word{"layer num/total_layer_count:", layer_of_layers},
+    Word{"Layer height:", layer_height},
     Word{"layer ", one_based_layer},
     Word{"total layers count =", count},
     Word{"total layer number:", count},
@@ -141,6 +150,9 @@ bool SlicerNotes::take(std::string_view comment) {
     }
     if (note.seconds) {
         seconds_ = *note.seconds;
+    }
+    if (note.layer_mm && layer_mm_ == 0) {
+        layer_mm_ = *note.layer_mm;
     }
     const int before = layer_;
     if (note.layer) {

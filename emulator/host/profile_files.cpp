@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "emulator/behaviour/nearest.h"
+#include "emulator/behaviour/parse_json.h"
 #include "emulator/host/text_file.h"
 
 namespace fauxboard::host {
@@ -130,7 +131,7 @@ std::vector<ProfileEntry> list_profiles(const std::vector<fs::path>& folders) {
             if (!source.text) {
                 continue;
             }
-            const auto json = behaviour::Json::parse(*source.text, nullptr, false);
+            const auto json = behaviour::parse_json(*source.text);
             if (!json.is_object() || !json.contains("name") || !json["name"].is_string()) {
                 continue;
             }

@@ -99,11 +99,9 @@ class Machine : public JobControl {
     /// stays so, or (`powered` false) gets no more current.
     void hang(bool powered);
     bool hung() const { return hung_; }
-    /// A request that the machine makes of itself and that is due, for the board to carry out without an
-    /// answer: a line of a file. Nothing when there is none; it may be empty.
+    /// A request that the machine makes of itself, for the board to carry out without an answer: a line of a
+    /// file. Nothing when there is none; it may be empty. That one comes due is an event of the machine's.
     virtual std::optional<std::string> take_request() { return std::nullopt; }
-    /// When the next one is due.
-    virtual SimTime next_request() const { return never; }
     /// The board is to be reset, by whoever owns it; asking takes it.
     void request_reset(int why) {
         reset_ = true;

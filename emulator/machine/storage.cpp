@@ -63,22 +63,27 @@ bool quote(char c) {
 
 /// What of a disk's entries a board shows, in its order and under its names.
 void arrange(std::vector<CardEntry>& entries, const CardConfig& config) {
-    std::erase_if(entries, [&](const CardEntry& entry) {
-        const auto holds = [name = short_name(entry.name)](const std::string& word) {
+    const std::vector<std::string> names = short_names(entries);
+    std::vector<CardEntry> shown;
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        CardEntry& entry = entries[i];
+        const auto holds = [&name = names[i]](const std::string& word) {
             return name.find(word) != std::string::npos;
         };
-        return (entry.folder && !config.folders) ||
-               (!config.only.empty() && std::none_of(config.only.begin(), config.only.end(), holds));
-    });
+        if ((entry.folder && !config.folders) ||
+            (!config.only.empty() && std::none_of(config.only.begin(), config.only.end(), holds))) {
+            continue;
+        }
+        if (config.name_bytes != 0 && entry.name.size() > config.name_bytes) {
+            entry.file = std::exchange(entry.name, names[i]);
+        }
+        shown.push_back(std::move(entry));
+    }
     if (config.newest_first) {
-        std::stable_sort(entries.begin(), entries.end(),
+        std::stable_sort(shown.begin(), shown.end(),
                          [](const CardEntry& a, const CardEntry& b) { return a.modified_s > b.modified_s; });
     }
-    for (CardEntry& entry : entries) {
-        if (config.name_bytes != 0 && entry.name.size() > config.name_bytes) {
-            entry.file = std::exchange(entry.name, short_name(entry.name));
-        }
-    }
+    entries = std::move(shown);
 }
 
 }  // namespace

@@ -7,8 +7,8 @@
 #include <fstream>
 #include <functional>
 #include <istream>
-#include <nlohmann/json.hpp>
 
+#include "emulator/behaviour/parse_json.h"
 #include "emulator/behaviour/wire_text.h"
 
 namespace fauxboard::record {
@@ -19,8 +19,8 @@ constexpr double max_seconds = 1e9;  // thirty years: beyond it is no recording
 constexpr std::array<std::string_view, 7> from_names{"board", "screen",  "host",  "world",
                                                      "usb",   "network", "module"};
 
-std::string found(const nlohmann::json& value) {
-    const std::string text = value.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+std::string found(const behaviour::Json& value) {
+    const std::string text = value.dump(-1, ' ', true, behaviour::Json::error_handler_t::replace);
     return "found " + (text.size() > 60 ? text.substr(0, 60) + "..." : text);
 }
 
@@ -72,7 +72,7 @@ std::optional<RecordedLine> RecordingReader::next() {
 
 /// Nothing for a note, which `decode` makes of what a host program logged of itself.
 std::optional<RecordedLine> RecordingReader::parse() {
-    const auto entry = nlohmann::json::parse(text_, nullptr, false);
+    const auto entry = behaviour::parse_json(text_);
     if (!entry.is_object()) {
         fail(entry.is_discarded() ? "not JSON; expected one JSON object a line"
                                   : found(entry) + "; expected an object with t, from, and line or do");
@@ -80,7 +80,7 @@ std::optional<RecordedLine> RecordingReader::parse() {
     if (entry.contains("note") && !entry.contains("t")) {
         return std::nullopt;
     }
-    const auto value = [&](const char* key) -> const nlohmann::json& {
+    const auto value = [&](const char* key) -> const behaviour::Json& {
         const auto hit = entry.find(key);
         if (hit == entry.end()) {
             fail(fmt::format("the key \"{}\" is missing", key));
@@ -88,12 +88,12 @@ std::optional<RecordedLine> RecordingReader::parse() {
         return *hit;
     };
     RecordedLine out;
-    const nlohmann::json& t = value("t");
+    const behaviour::Json& t = value("t");
     if (!t.is_number() || !(t.get<double>() >= 0 && t.get<double>() <= max_seconds)) {
         fail("t: " + found(t) + "; expected seconds from 0 to 1e9");
     }
     out.t = machine::from_seconds(t.get<double>());
-    const nlohmann::json& from = value("from");
+    const behaviour::Json& from = value("from");
     const auto name = from.is_string() ? std::find(from_names.begin(), from_names.end(),
                                                    std::string_view(from.get_ref<const std::string&>()))
                                        : from_names.end();
@@ -102,7 +102,7 @@ std::optional<RecordedLine> RecordingReader::parse() {
     }
     out.from = static_cast<RecordedLine::From>(name - from_names.begin());
     const char* key = out.key();
-    const nlohmann::json& bytes = value(key);
+    const behaviour::Json& bytes = value(key);
     auto wire = bytes.is_string() ? behaviour::to_wire(bytes.get_ref<const std::string&>()) : std::nullopt;
     const bool ends = wire && wire->find_first_of(std::string_view("\r\n")) != std::string::npos;
     if (!wire || (ends && !out.is_datagram())) {
@@ -111,7 +111,7 @@ std::optional<RecordedLine> RecordingReader::parse() {
     }
     out.bytes = std::move(*wire);
     if (out.is_datagram()) {
-        const nlohmann::json& peer = value("peer");
+        const behaviour::Json& peer = value("peer");
         if (!peer.is_number_unsigned() || peer.get<std::uint64_t>() == 0) {
             fail("peer: " + found(peer) + "; expected a whole number from 1 on");
         }
@@ -170,7 +170,7 @@ namespace {
 /// `peer`: of a datagram, else 0.
 std::string line_text(machine::SimTime t, std::string_view from, std::uint64_t peer, std::string_view key,
                       std::string_view bytes) {
-    const std::string text = nlohmann::json(behaviour::from_wire(bytes)).dump(-1, ' ', true);
+    const std::string text = behaviour::Json(behaviour::from_wire(bytes)).dump(-1, ' ', true);
     const std::string who = peer == 0 ? std::string{} : fmt::format(", \"peer\": {}", peer);
     const auto us = t.count();
     return fmt::format("{{\"t\": {}.{:06}, \"from\": \"{}\"{}, \"{}\": {}}}\n", us / 1'000'000,

@@ -6,7 +6,6 @@
 
 #include "emulator/resin/event_rows.h"
 #include "emulator/resin/names.h"
-#include "emulator/resin/printer.h"
 
 namespace fauxboard::resin {
 namespace {
@@ -49,7 +48,7 @@ void Printer::power_on_parts(SimTime now) {
 }
 
 SimTime Printer::next_of_parts() const {
-    return std::min({axis.next_event(), print.next_event(), stick_due_, reboot_due_});
+    return std::min({axis.next_event(), print.next_event(), commands.next_event(), stick_due_, reboot_due_});
 }
 
 bool Printer::restless_parts() const {

@@ -80,7 +80,6 @@ class Printer final : public machine::Machine {
     // A stick that was put in can be read only later.
     void insert_card(int disk) override;
     void remove_card(int disk) override;
-    SimTime next_request() const override { return commands.next_event(); }
     std::optional<std::string> take_request() override {
         return hung() ? std::nullopt : commands.take(now());
     }

@@ -6,6 +6,7 @@
 
 #include "emulator/behaviour/machine_loader.h"
 #include "emulator/behaviour/nearest.h"
+#include "emulator/behaviour/parse_json.h"
 #include "emulator/script/compiler.h"
 #include "emulator/script/placeholders.h"
 
@@ -30,7 +31,7 @@ bool is_scalar(const Json& value) {
 
 /// What a person wrote behind "name=".
 Json value_of_text(const std::string& text) {
-    const Json json = Json::parse(text, nullptr, false);
+    const Json json = behaviour::parse_json(text);
     return json.is_number() || json.is_boolean() ? json : Json(text);
 }
 

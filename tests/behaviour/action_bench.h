@@ -85,8 +85,20 @@ const std::vector<ActionRow>& machine_action_rows();
 const std::vector<ActionRow>& device_action_rows();
 const std::vector<ActionRow>& fault_action_rows();
 const std::vector<ActionRow>& host_action_rows();
-/// Of a resin printer.
+/// Of a resin printer; `resin_profile` is one that they are tried on.
 const std::vector<ActionRow>& resin_action_rows();
+inline constexpr std::string_view resin_profile = R"({ "machine": {
+    "resin": { "stick_visible_s": 0 },
+    "card": { "entries": [ { "file": "a.gcode", "lines": [ "G28" ] }, { "file": "no.ctb", "lines": [ "no layers" ] },
+                           { "folder": "sub", "entries": [ { "file": "b.gcode", "lines": [ "G28" ] } ] } ] } } })";
+/// Of the MKS DLP board, and a profile of it: a stick with a print and a settings file.
+const std::vector<ActionRow>& dlp_action_rows();
+inline constexpr std::string_view dlp_profile = R"({ "machine": {
+    "kind": "dlp",
+    "card": { "folders": true, "entries": [
+        { "file": "m.cbddlp", "sample": { "layers": 3, "exposure_s": 2, "lift_mm": 2, "width": 1440, "height": 2560 } },
+        { "file": "set.acfg", "lines": [ "[General]", "buzzer_touch_duration = 33" ] },
+        { "folder": "sub", "entries": [ { "file": "n.cbddlp", "sample": { "layers": 2, "width": 1440, "height": 2560 } } ] } ] } } })";
 const std::vector<ActionRow>& transfer_action_rows();
 
 }  // namespace fauxboard::testing

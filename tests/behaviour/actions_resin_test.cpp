@@ -66,16 +66,24 @@ const std::vector<ActionRow>& resin_action_rows() {
          [](Bench& b) {
              b.run(R"("resin.start")");
              CHECK(b.text("resin.outcome") == "no_name");
-             b.run(R"([{"resin.choose": {"name": "a.gcode"}}, "resin.start"])");
+             b.run(R"([{"resin.choose": {"name": "no.ctb"}}, "resin.start"])");
              CHECK(b.text("resin.outcome") == "unprintable");
              CHECK(b.number("job.active") == 0);
+             b.run(R"([{"resin.choose": {"name": "a.gcode"}}, "resin.start"])");  // commands are carried out
+             CHECK(b.text("resin.outcome") == "opened");
+             b.run(R"("resin.start")");
+             CHECK(b.text("resin.outcome") == "busy");
          }},
         {"resin.print",
          [](Bench& b) {
-             b.run(R"({"resin.print": {"name": "a.gcode"}})");
+             b.run(R"({"resin.print": {"name": "no.ctb"}})");
              CHECK(b.text("resin.outcome") == "unprintable");
              b.run(R"({"resin.print": {"name": "none"}})");
              CHECK(b.text("resin.outcome") == "missing");
+             b.run(R"({"resin.print": {"name": "a.gcode"}})");
+             CHECK(b.text("resin.outcome") == "opened");
+             b.run(R"({"resin.print": {"name": "none"}})");
+             CHECK(b.text("resin.outcome") == "busy");
          }},
         {"resin.remove",
          [](Bench& b) {

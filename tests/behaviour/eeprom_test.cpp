@@ -51,7 +51,10 @@ TEST_CASE("EEPROM image: every stored field comes back exactly as it was") {
         change_everything(changed.machine);
         const string image = make_image(changed.machine);
         Bench fresh(kind->machine.name);
-        CHECK(make_image(fresh.machine) != image);
+        const auto own = kind->fields();
+        const bool keeps =
+            std::any_of(own.begin(), own.end(), [](const Field& field) { return field.stored; });
+        CHECK((make_image(fresh.machine) != image) == keeps);  // one kind has a chip of its own instead
         apply_image(fresh.machine, image, {});
         CHECK(make_image(fresh.machine) == image);
         for (const Field& field : kind->fields()) {

@@ -17,13 +17,15 @@ using std::string;
 
 namespace {
 
-/// A machine of a kind.
+/// A machine of a kind: the program that has all of its fields.
 struct Bench {
     std::shared_ptr<const Profile> profile;
     std::unique_ptr<machine::Machine> made{profile->kind->make(profile->machine, {}, 1)};
     machine::Machine& machine{*made};
 
-    explicit Bench(std::string_view kind = "filament") : profile(fauxboard::testing::bare_profile(kind)) {
+    explicit Bench(std::string_view kind = "filament")
+        : profile(fauxboard::testing::bare_profile(
+              kind, kind == "dlp" ? R"(, "dlp": { "firmware": "0.08" })" : "")) {
         machine.power_on(machine::SimTime{0});
     }
     double number(std::string_view path) { return find_field(path)->get(machine).number; }
@@ -36,9 +38,14 @@ double shown(const Field& field, double wanted) {
                                               : wanted;
 }
 
-/// The machine has limits of its own that are narrower than the field's bounds.
+/// The machine has limits of its own that are narrower than the field's bounds: those of its profile, the
+/// days of a month, a direction that is never 0, what a newer program bounds. The tests of each say what it
+/// keeps.
 bool clamped_by_machine(const Field& field) {
-    return field.path.ends_with(".target") && field.path.starts_with("heaters.");
+    static const std::set<std::string_view> paths{"clock.day", "setup.home_direction", "setup.acceleration",
+                                                  "setup.travel_acceleration", "setup.travel_feedrate"};
+    return (field.path.ends_with(".target") && field.path.starts_with("heaters.")) ||
+           paths.contains(field.path);
 }
 
 struct FieldOfKind {
@@ -151,6 +158,25 @@ TEST_CASE("fields: every settable number keeps what lies within its bounds and c
             CHECK(field.get(bench.machine).number == doctest::Approx(shown(field, kept)));
         }
     }
+}
+
+TEST_CASE("fields: a date has the days of its month, and a direction is up or down") {
+    Bench bench("dlp");
+    const auto set = [&](std::string_view path, double value) {
+        CHECK(set_field(bench.machine, *find_field(path), Value::of(value)) == SetResult::done);
+        return bench.number(path);
+    };
+    set("clock.year", 2024);
+    set("clock.month", 2);
+    CHECK(set("clock.day", 28.6) == 29);
+    CHECK(set("clock.day", 31) == 29);
+    CHECK(set("clock.month", 3) == 3);
+    CHECK(set("clock.day", 31) == 31);
+    CHECK(set("clock.month", 4) == 4);
+    CHECK(bench.number("clock.day") == 30);
+    CHECK(set("setup.home_direction", 1) == 1);
+    CHECK(set("setup.home_direction", 0) == -1);
+    CHECK(set("setup.acceleration", 1e6) == 100);
 }
 
 TEST_CASE("fields: a number field refuses what is no number, and keeps its value") {

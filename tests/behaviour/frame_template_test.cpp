@@ -134,7 +134,9 @@ TEST_CASE("templates: errors say what is wrong and what was meant") {
     CHECK(bench.error("{S}").find("needs a format") != string::npos);
     CHECK(bench.error("{var.count}").find("needs a format") != string::npos);
     CHECK(bench.error("{position.x:.7f}").find("unknown format \".7f\"") != string::npos);
-    CHECK(bench.error("{position.x:%3.2f}").find("expected .0f to .6f, d, s, .1s to .512s, lower or upper") != string::npos);
+    CHECK(bench.error("{position.x:%3.2f}")
+              .find("expected .0f to .6f (+ before it for a sign), d, x, time, s, .1s to .512s, lower or "
+                    "upper") != string::npos);
     CHECK(bench.error("{position.x:s}").find("is a number and cannot be written with the format \"s\"") !=
           string::npos);
     CHECK(bench.error("{screen.firmware:d}").find("is a text and cannot be written") != string::npos);

@@ -416,3 +416,25 @@ TEST_CASE("A30: no heater that is well is called faulty, whatever it is to reach
         CHECK(driver.number("heaters.bed.target") == std::min(110, nozzle / 2));
     }
 }
+
+TEST_CASE("A30: the layer is told by the nozzle's height, where the file says how high a layer is") {
+    const std::string body = "LAYER_COUNT:40\nG28\nG1 Z0.2 F600\nG4 S20\nG1 Z0.3\nG4 S20\nG1 Z5.05\nG4 S20\n";
+    A30 a30(";Layer height: 0.2\n;" + body);
+    a30.start();
+    const auto layer_at = [&a30](double z) {
+        while (a30.driver->number("position.z") != doctest::Approx(z) && a30.driver->now() < 400) {
+            a30.driver->run_for(1);
+        }
+        a30.driver->run_for(6);
+        return a30.last("L3 PS:1");
+    };
+    CHECK(holds(layer_at(0.2), " LA:0 LC:40"));
+    CHECK(holds(layer_at(0.3), " LA:1 LC:40"));
+    CHECK(holds(layer_at(5.05), " LA:24 LC:40"));
+    a30.driver->run_for(200);
+    CHECK(holds(a30.last("L3 PS:0"), " LA:0 LC:0"));
+    A30 other(";" + body);  // no height told: by the comments, of which there are none
+    other.start();
+    other.driver->run_for(120);
+    CHECK(holds(other.last("L3 PS:1"), " LA:0 LC:40"));
+}

@@ -152,7 +152,7 @@ TEST_CASE_FIXTURE(Bench, "host lines: what does not fit into the board's queue w
     for (int i = 0; i < 3000; ++i) {
         flood += "M105\n";
     }
-    const std::string talk = told(flood, 5);
+    const std::string talk = told(flood, 50);
     const auto lost = static_cast<std::ptrdiff_t>(driver.board().counters().requests_lost);
     CHECK(lost > 0);
     CHECK(oks(talk) == 3001 - lost);

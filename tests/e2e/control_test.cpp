@@ -123,7 +123,8 @@ TEST_CASE("each no has its exit code and its sentence") {
         {{"fault", "remove", "x"}, failed, "There is no fault \"x\""},
         {{"fault"}, usage, "subcommand"},
         {{"watch", "heaters.nozle"}, failed, "no field"},
-        {{"frobnicate"}, usage, "subcommand is required"},
+        {{"frobnicate"}, usage, "there is no command 'frobnicate'"},
+        {{"get", "--jsn"}, usage, "get: there is no option '--jsn'; did you mean '--json'?"},
         {{}, usage, "subcommand"},
     };
     for (const Mistake& wrong : all) {

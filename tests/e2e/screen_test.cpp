@@ -224,7 +224,7 @@ TEST_CASE("each mistake has its exit code and its sentence") {
         {{"screen"}, usage, "subcommand"},
         {{"screen", "tour"}, usage, "--port"},
         {with({"--tcp", ":1", "tour"}), usage, "--tcp"},
-        {with({"frobnicate"}), usage, "subcommand is required"},
+        {with({"frobnicate"}), usage, "there is no command 'frobnicate'"},
         {with({"press"}), usage, "BUTTON"},
         {with({"tour", "--speed", "max"}), usage, "cannot run at 'max'"},
         {with({"tour", "--timeout", "soon"}), usage, "expected 500ms"},

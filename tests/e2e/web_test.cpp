@@ -74,6 +74,7 @@ TEST_CASE("a fleet: every board is there on a line of its own, and all go at onc
     for (std::size_t i = 0; i < 5; ++i) {
         const auto& board = ready["boards"][i];
         CHECK(board.at("name") == "geeetech-a30t-" + std::to_string(i + 1));
+        CHECK(board.at("pty") == folder.file("left-" + std::to_string(i + 1)));
         CHECK(paths.insert(board.at("path")).second);
         Peer peer(folder.file("left-" + std::to_string(i + 1)));
         CHECK(contains(peer.ask("M105", "L2 B:"), "L2 B:"));

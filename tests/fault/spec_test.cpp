@@ -80,7 +80,7 @@ TEST_CASE("fifteen wrong specs, fifteen sentences") {
          "wrong_checksum, silence, disconnect, or a fault of the printer (see `describe faults`)"},
         {"garble:bit=1",
          "fault \"garble:bit=1\": unknown attribute \"bit\"; garble takes bits, bytes, direction, "
-         "probability, every, "
+         "line, probability, every, "
          "after, count, from, until, for, at, seed; did you mean \"bits\"?"},
         {"drop:to_scren",
          "fault \"drop:to_scren\": found \"to_scren\"; expected name=value or a direction, one of to_screen, "
@@ -247,7 +247,7 @@ TEST_CASE("wrong faults of the printer: sentences that say what to do, and no li
 TEST_CASE("the reference names every kind and attribute") {
     const Json reference = describe_kinds();
     CHECK(reference["kinds"].size() == 12);
-    CHECK(reference["common"].size() == 10);
+    CHECK(reference["common"].size() == 11);
     CHECK(
         reference["kinds"][3] ==
         Json::parse(

@@ -31,6 +31,15 @@ TEST_CASE("slicers: Cura and ideaMaker count their layers from 0") {
     CHECK(notes.layers() == 21);
     CHECK(notes.seconds() == 3661.5);
     CHECK(notes.layer() == 0);
+    CHECK(notes.layer_mm() == 0);
+    for (const char* height :
+         {"Layer height: ", "Layer height: -1", "Layer height: 0", "Layer height: 1000"}) {
+        notes.take(height);
+        CHECK(notes.layer_mm() == 0);
+    }
+    notes.take("Layer height: 0.15");
+    notes.take("Layer height: 0.3");  // of a second part: the first one stays
+    CHECK(notes.layer_mm() == 0.15);
 }
 
 TEST_CASE("slicers: Simplify3D counts from 1") {

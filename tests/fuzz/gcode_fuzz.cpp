@@ -220,6 +220,10 @@ void Print::finish() {
     ask("M2103");  // the first one may have found the queue full
     pass(std::chrono::seconds(10), all);
     require(!board_.machine().job.active(), "a job cannot be stopped");
+    if (board_.machine().hung()) {  // the file said M112
+        board_.power_on(now_);
+        pass(std::chrono::seconds(60), all);
+    }
     answered_ = false;
     ask("M115");
     pass(std::chrono::seconds(10), all);

@@ -1,7 +1,8 @@
 // Runs a fuzz target without a fuzzer: every file given, then seeded random changes of them. The same every
 // time.
 //
-// Usage: fuzz_TARGET [--runs N] [--seed N] FILE|FOLDER...
+// Usage: fuzz_TARGET [--runs N] [--seed N] [--keep FILE] FILE|FOLDER...
+// FILE has the last input: after a broken rule, the one that broke it.
 
 #include <algorithm>
 #include <charconv>
@@ -86,7 +87,10 @@ class Mutator {
     std::mt19937_64 random_;
 };
 
-void run(const std::string& input) {
+void run(const std::string& input, const fs::path& keep) {
+    if (!keep.empty()) {
+        std::ofstream(keep, std::ios::binary) << input;
+    }
     // A copy of the exact size on the heap, so that a sanitizer sees a read beyond its end.
     const std::vector<std::uint8_t> bytes(input.begin(), input.end());
     LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
@@ -98,10 +102,13 @@ int main(int argc, char** argv) {
     std::uint64_t runs = 0;
     std::uint64_t seed = 1;
     std::vector<fs::path> paths;
+    fs::path keep;
     for (int i = 1; i < argc; ++i) {
         const std::string_view word = argv[i];
         std::uint64_t* const number = word == "--runs" ? &runs : word == "--seed" ? &seed : nullptr;
-        if (number == nullptr) {
+        if (word == "--keep" && i + 1 < argc) {
+            keep = argv[++i];
+        } else if (number == nullptr) {
             paths.emplace_back(word);
         } else if (++i < argc) {
             const std::string_view text = argv[i];
@@ -110,15 +117,15 @@ int main(int argc, char** argv) {
     }
     const std::vector<std::string> inputs = read_all(paths);
     if (inputs.empty()) {
-        std::fprintf(stderr, "usage: %s [--runs N] [--seed N] FILE|FOLDER...\n", argv[0]);
+        std::fprintf(stderr, "usage: %s [--runs N] [--seed N] [--keep FILE] FILE|FOLDER...\n", argv[0]);
         return 2;
     }
     for (const std::string& input : inputs) {
-        run(input);
+        run(input, keep);
     }
     Mutator mutator(inputs, seed);
     for (std::uint64_t i = 0; i < runs; ++i) {
-        run(mutator.next());
+        run(mutator.next(), keep);
     }
     std::printf("%zu inputs and %llu changes of them (seed %llu): no rule broken\n", inputs.size(),
                 static_cast<unsigned long long>(runs), static_cast<unsigned long long>(seed));

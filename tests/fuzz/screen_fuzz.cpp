@@ -180,7 +180,10 @@ void Run::finish() {
     now_ += SimTime{100'000};
     while (screen_.advance(now_) <= now_ || !screen_.output().empty())
         take();
-    require(last_.find("M2134 FW:") != std::string::npos, "the screen does not answer any more");
+    // The A30 and A30T answer who they are; the other kind asks by itself.
+    const bool asks = screen_.profile().line.lf_only;
+    require(last_.find(asks ? "M105" : "M2134 FW:") != std::string::npos,
+            "the screen does not answer any more");
     transcript_.resize(length);
 }
 

@@ -57,9 +57,11 @@ TEST_CASE_FIXTURE(Bench, "job place: what was kept last comes back, until it is 
 }
 
 TEST_CASE_FIXTURE(Bench, "job place: what has no room is no place") {
-    JobPlaceFile store = open();
-    store.keep(sample(1));
-    store.keep(std::string(5000, 'x'));
+    {
+        JobPlaceFile store = open();
+        store.keep(sample(1));
+        store.keep(std::string(5000, 'x'));
+    }
     CHECK_FALSE(open().load());
 }
 

@@ -162,7 +162,7 @@ TEST_CASE("screens by name") {
     } catch (const behaviour::ProfileError& error) {
         sentence = error.what();
     }
-    CHECK(sentence.find("there is no screen of this name; known: geeetech-a30 geeetech-a30t") !=
+    CHECK(sentence.find("there is no screen of this name; known: btt-tft geeetech-a30 geeetech-a30t") !=
           std::string::npos);
     CHECK_THROWS_AS(load_screen_by_name("/missing/screen.json"), behaviour::ProfileError);
 }

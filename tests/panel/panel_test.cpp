@@ -127,7 +127,7 @@ struct Client {
         run_until(bench.loop, [&] { return take() || came.find("\n\n", start) != std::string::npos; });
         const std::size_t end = came.find("\n\n", start);
         const json out = json::parse(came.substr(start, end - start), nullptr, false);
-        came.erase(0, end + 2);
+        came.erase(0, end + 1);  // the second line feed stays: it stands before the next mark
         return out;
     }
 

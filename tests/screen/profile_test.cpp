@@ -104,11 +104,14 @@ TEST_CASE("wrong expressions say what was found, what was expected and what is n
     CHECK(fault("{a b}") == "in \"a b\": \"b\" was not expected");
     CHECK(fault("{(a}") == "in \"(a\": expected ')' at the end");
     CHECK(fault("{mn(a, 1)}") ==
-          "in \"mn(a, 1)\": there is no function \"mn\"; known: min, max, mod, round, floor; min?");
+          "in \"mn(a, 1)\": there is no function \"mn\"; known: min, max, mod, days, round, floor, float; "
+          "min?");
     CHECK(fault("{t + 1}") == "in \"t + 1\": \"t\" is a text; expected a number");
     CHECK(fault("{input}") == "in \"input\": \"input\" is known only to a button with \"input\"");
-    CHECK(fault("{a:.9f}") == "unknown format \".9f\" in {a:.9f}; expected .0f to .6f, d, or name");
-    CHECK(fault("{t:d}") == "{t:d} is a text; expected no format");
+    CHECK(fault("{a:.9f}") ==
+          "unknown format \".9f\" in {a:.9f}; expected .0f to .6f, d, 01d to 09d, hms, hm, or name");
+    CHECK(fault("{t:d}") ==
+          "{t:d} is a text; expected no format, or one of stem, ending, A+N (N bytes from A on)");
     CHECK(fault("a } b") == "a brace without its partner in \"a } b\"");
     CHECK(fault("{((((((((((((((((((a))))))))))))))))))}").find("nested deeper than 16") !=
           std::string::npos);
@@ -138,7 +141,7 @@ TEST_CASE("wrong screen profiles give clear sentences") {
         {R"({"extends": "geeetech-a30t", "frames": {"L10": {"read": [{"key": "S", "as": "flaot"}]}}})",
          "/frames/L10/read/0/as: found the text \"flaot\"; expected one of u8, u16, i32, real, text, mark, "
          "list_start, "
-         "list_entry, list_append"},
+         "list_entry, list_end, list_append"},
         {R"({"extends": "geeetech-a30t", "frames": {"L10": {"read": [{"key": "S", "as": "real", "into": "job.file"}]}}})",
          "/frames/L10/read/0/into: \"job.file\" is a text; expected a number"},
         {R"({"extends": "geeetech-a30t", "frames": {"L300": {}}})",

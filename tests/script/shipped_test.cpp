@@ -11,6 +11,7 @@
 
 #include "emulator/fault/kind.h"
 #include "emulator/host/script_files.h"
+#include "emulator/machine/kind.h"
 #include "tests/support/scenario_run.h"
 
 namespace fauxboard::script {
@@ -21,10 +22,18 @@ using testing::ScenarioRun;
 using Verdict = Outcome::Verdict;
 
 const std::vector<std::string>& shipped() {
-    static const std::vector<std::string> names{
-        "day-of-bad-luck", "leveling-session",           "pair-a30",           "pair-a30t",
-        "power-loss",      "print-with-filament-change", "resin-stick-pulled", "soak",
-        "tour-of-pages"};
+    static const std::vector<std::string> names{"day-of-bad-luck",
+                                                "dlp-by-touch",
+                                                "dlp-first-print",
+                                                "dlp-night-of-bad-luck",
+                                                "leveling-session",
+                                                "pair-a30",
+                                                "pair-a30t",
+                                                "power-loss",
+                                                "print-with-filament-change",
+                                                "resin-stick-pulled",
+                                                "soak",
+                                                "tour-of-pages"};
     return names;
 }
 
@@ -98,23 +107,26 @@ TEST_CASE("soak: it goes on until it is told to end") {
     CHECK(run.outcome.at == SimTime{600'000'000});
 }
 
-TEST_CASE(
-    "a day of bad luck: every fault there is happens in it, or, of pieces of files, to a resin printer") {
-    const auto steps_of = [](const char* name) {
-        return Json::parse(testing::shipped_scenario(name).text)["steps"];
-    };
-    const Json day = steps_of("day-of-bad-luck");
-    const Json resin = steps_of("resin-stick-pulled");
+/// Whether the fault happens in the scenario.
+bool happens_in(const Json& scenario, const fault::Kind& kind) {
+    const Json& steps = scenario["steps"];
+    return std::any_of(steps.begin(), steps.end(), [&](const Json& step) {
+        return step.contains("fault") && fault::fault_from_json(step["fault"]).kind == &kind;
+    });
+}
+
+TEST_CASE("days and nights of bad luck: every fault there is happens to a machine that can have it") {
+    const auto scenario = [](const char* name) { return Json::parse(testing::shipped_scenario(name).text); };
+    const Json day = scenario("day-of-bad-luck");
+    const Json night = scenario("dlp-night-of-bad-luck");
+    const Json resin = scenario("resin-stick-pulled");
     for (const auto kinds : {fault::kinds(), fault::printer_kinds()}) {
         for (const fault::Kind* kind : kinds) {
-            const std::string name(kind->name);
-            CAPTURE(name);
-            bool happens = false;
-            for (const Json& step : name.starts_with("chunk_") ? resin : day) {
-                happens =
-                    happens || (step.contains("fault") && fault::fault_from_json(step["fault"]).kind == kind);
-            }
-            CHECK(happens);
+            CAPTURE(std::string(kind->name));
+            const bool by_day =
+                kind->printer == nullptr || machine::has_fault(*machine::kinds().front(), *kind->printer);
+            const bool of_pieces = kind->name.starts_with("chunk_");  // of files
+            CHECK(happens_in(of_pieces ? resin : by_day ? day : night, *kind));
         }
     }
 }

@@ -32,7 +32,8 @@ TEST_CASE("units: times are not negative and have an end") {
     CHECK(time_from_text("500ms") == SimTime{500'000});
     CHECK(time_from_text("2h") == SimTime{7'200'000'000});
     CHECK(time_from_text("0s") == SimTime{0});
-    for (const char* text : {"-1s", "5", "1d", "99999999999999h", "s", ""}) {
+    CHECK(time_from_text("1d") == SimTime{86'400'000'000});
+    for (const char* text : {"-1s", "5", "1w", "99999999999999h", "s", ""}) {
         CAPTURE(text);
         CHECK_FALSE(time_from_text(text));
     }

@@ -31,8 +31,8 @@ inline std::vector<std::string> hostile_names(const std::string& outside) {
         "/dev/tty", "/dev/fd/0", "dangling", "link.temp", "sub/link", "sub",
         // Bytes.
         "a\0../"s + base, "../"s + base + "\0.gco"s, "\0"s, "\xff\xfe", "..\xc0\xaf" + base,
-        "\xc0\xae\xc0\xae/" + base, "\xe2\x80\xae" + base, "\x1b[2J", "\x7f", "name\rM112", "name*12", "",
-        " ", ".", "./", "/", "//", "sub/",
+        "\xc0\xae\xc0\xae/" + base, "\xe2\x80\xae" + base, "\x1b[2J", "\x7f", "name\rM28 ../" + base,
+        "name*12", "", " ", ".", "./", "/", "//", "sub/",
         // Lengths.
         std::string(255, 'a'), std::string(256, 'b'), std::string(480, 'c'), std::string(600, 'd'),
         std::string(100, '/') + ".." + base};

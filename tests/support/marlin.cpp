@@ -20,7 +20,8 @@ nlohmann::json vector_file() {
 
 std::vector<MarlinVector> marlin_vectors() {
     std::vector<MarlinVector> vectors;
-    for (const auto& node : vector_file().at("vectors")) {
+    const nlohmann::json file = vector_file();  // outlives the loop over a part of it
+    for (const auto& node : file.at("vectors")) {
         vectors.push_back(
             {node.at("name"), node.value("world", std::string{}), node.at("send"), node.at("reply")});
     }

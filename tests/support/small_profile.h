@@ -54,11 +54,12 @@ inline std::shared_ptr<const behaviour::Profile> small_profile(std::string_view 
                                    finder_in({{"small-base", std::string(small_base)}}));
 }
 
-/// A profile that says nothing but the kind of its machine.
-inline std::shared_ptr<const behaviour::Profile> bare_profile(std::string_view kind) {
+/// A profile that says nothing but the kind of its machine, and `more` of it.
+inline std::shared_ptr<const behaviour::Profile> bare_profile(std::string_view kind,
+                                                              std::string_view more = "") {
     return behaviour::load_profile(
         {"bare.json", R"({ "name": "bare", "protocol": "gcode", "frames": {}, "machine": { "kind": ")" +
-                          std::string(kind) + R"(" } })"},
+                          std::string(kind) + "\"" + std::string(more) + " } }"},
         finder_in({}));
 }
 

@@ -58,6 +58,7 @@ Vector read_vector(const json& node) {
     }
     out.paced = node.value("paced", false);
     out.after_s = node.value("after_s", 2.0);
+    out.takes_s = node.value("takes_s", 0.0);
     return out;
 }
 

@@ -26,6 +26,7 @@ struct Vector {
     std::map<std::string, double> state;
     std::map<std::string, std::string> texts;  ///< state of text fields
     double after_s = 2;
+    double takes_s = 0;  ///< so long the board is at it before it answers
 };
 
 struct VectorFile {

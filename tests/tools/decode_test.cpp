@@ -66,7 +66,8 @@ TEST_CASE("decode --screen: what that screen would have made of the board's line
           std::string::npos);
     const Outcome none = run_program("decode --screen nosuch " + file);
     CHECK(none.code == 3);
-    CHECK(none.out.find("there is no screen of this name; known: geeetech-a30") != std::string::npos);
+    CHECK(none.out.find("there is no screen of this name; known: btt-tft geeetech-a30 geeetech-a30t") !=
+          std::string::npos);
 }
 
 TEST_CASE("decode: a serial.log of OctoPrint, in words and as a recording") {

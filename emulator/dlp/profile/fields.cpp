@@ -186,6 +186,10 @@ constexpr std::array machine_rows{
          FAUXBOARD_DLP_SEEN(b.panel.fpga().counters().packets)),
     seen("fpga.crc_errors", integer, "", "of them with a wrong checksum",
          FAUXBOARD_DLP_SEEN(b.panel.fpga().counters().crc_errors)),
+    seen("fpga.commands", integer, "", "command bytes written",
+         FAUXBOARD_DLP_SEEN(b.panel.fpga().counters().commands)),
+    seen("fpga.failed_commands", integer, "", "commands that never read back in five times",
+         FAUXBOARD_DLP_SEEN(b.panel.counters().failed_commands)),
     seen("fpga.retries", integer, "", "packets sent again", FAUXBOARD_DLP_SEEN(b.panel.counters().resends)),
     seen("fpga.data_retries", integer, "", "of them with light",
          FAUXBOARD_DLP_SEEN(b.panel.counters().data_retries)),
@@ -313,8 +317,8 @@ constexpr std::array clock_rows{
     clock_row<&Moment::second>("clock.second", 0, 59, "same"),
 };
 
-/// A parameter of settings files as a field: setup.NAME, as it is in force. One that is told in the unit of the
-/// file, as all but times are, can be set, too, within the bounds that hold for the file.
+/// A parameter of settings files as a field: setup.NAME, as it is in force. One that is told in the unit of
+/// the file, as all but times are, can be set, too, within the bounds that hold for the file.
 template <std::size_t I>
 Field parameter_row() {
     static const std::string path = "setup." + std::string(parameters()[I].value_name);
@@ -326,13 +330,14 @@ Field parameter_row() {
     if (parameter.unit == "ms") {
         return row.shown(path, number, parameter.unit, parameter.help, get);
     }
-    constexpr double most = 1e9;
-    return row.handled(path, number, parameter.unit, -most, most, parameter.help, get,
-                       [](Printer& p, const Value& v) {
-                           static_cast<void>(parameters()[I].take(p.board.settings,
-                                                                  read_number(fmt::format("{:.6f}", v.number)),
-                                                                  p.board.config().firmware));
-                       });
+    constexpr double furthest = 1e9;  // of a parameter that files do not bound
+    return row.handled(
+        path, parameter.whole ? integer : number, parameter.unit, std::max(parameter.least, -furthest),
+        std::min(parameter.most, furthest), parameter.help, get, [](Printer& p, const Value& v) {
+            const Parameter& own = parameters()[I];
+            static_cast<void>(own.take(p.board.settings, read_number(fmt::format("{:.6f}", v.number)), own,
+                                       p.board.config().firmware));
+        });
 }
 
 template <std::size_t... I>

@@ -66,7 +66,7 @@ constexpr std::array table{
     row.shown("heaters.bed.pwm", integer, "", "output of the bed's controller, 0 to 127", pwm<HeaterId::bed>),
     row.shown("heating.residency", integer, "s",
               "how long the temperature waited for must still hold; -1 while it is not there",
-              [](const Printer& p) { return p.wait.residency_left_s(p.now()); }),
+              [](const Printer& p) { return p.wait.residency_left_s(); }),
     row.plain("extruder.cold_allowed", boolean, "", 0, 1, "filament moves through a cold nozzle (M302 P1)",
               FAUXBOARD_PLACE(guard.cold_allowed)),
     row.plain("extruder.min", number, "C", 0, 1000, "below it a nozzle is too cold for filament (M302 S)",
