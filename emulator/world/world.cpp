@@ -121,7 +121,8 @@ void World::on_power_on(SimTime now) {
 }
 
 void World::on_event(SimTime, machine::EventId event) {
-    if (event->name == "job.started" || event->name == "job.stopped" || event->name == "file.selected") {
+    if (event->name == "job.started" || event->name == "job.stopped" || event->name == "job.replaced" ||
+        event->name == "file.selected") {
         new_job();
     }
 }
