@@ -75,8 +75,8 @@ std::string Board::urgent_command(std::string_view line, const protocol::HostLin
 void Board::take_command_line(Channel channel, std::string_view bytes) {
     Port& from = port(channel);
     if (from.deaf_at == time_) {
-        // It lay behind a bad line in the buffer that the firmware then throws away. It was on the wire all the
-        // same, and a recording holds it.
+        // It lay behind a bad line in the buffer that the firmware then throws away. It was on the wire all
+        // the same, and a recording holds it.
         ++counters_.requests_lost;
         return tell_received(channel, bytes, Verdict::queue_full);
     }
