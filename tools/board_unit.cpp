@@ -80,7 +80,7 @@ void BoardUnit::set_up() {
         options.front = &screen_.emplace(host::load_own_screen(profile_->screen));
     }
     board_.emplace(profile_, services, options);
-    set_up_panel_folder();
+    set_up_panel();
     board_->connect(board::Channel::main, has_main_line());
     link_.emplace(make_wire(), *clock_, fault::Direction::to_board);
     if (options_.host.wanted()) {
@@ -124,19 +124,25 @@ void BoardUnit::set_up_memory(machine::Services& services) {
     services.eeprom = &eeprom_.emplace(options_.eeprom, trouble);
 }
 
-void BoardUnit::set_up_panel_folder() {
-    if (options_.panel.empty()) {
+void BoardUnit::set_up_panel() {
+    if (options_.panel.empty() && options_.spi.empty()) {
         return;
     }
-    const auto* const machine = machine::as<dlp::Printer>(board_->machine());
+    auto* const machine = machine::as<dlp::Printer>(board_->machine());
     if (machine == nullptr) {
-        throw link::HostError(
-            fmt::format("The board of the profile {} has no UV panel: leave --panel out.", profile_->name));
+        throw link::HostError(fmt::format(
+            "The board of the profile {} has no UV panel: leave --panel and --spi out.", profile_->name));
     }
-    panel_folder_.emplace(options_.panel,
-                          [this](std::string_view text) { say(board::Level::warning, text); });
-    panel_folder_->watch(*machine);
-    observers_.add(*panel_folder_);
+    const auto trouble = [this](std::string_view text) { say(board::Level::warning, text); };
+    if (!options_.panel.empty()) {
+        panel_folder_.emplace(options_.panel, trouble);
+        panel_folder_->watch(*machine);
+        observers_.add(*panel_folder_);
+    }
+    if (!options_.spi.empty()) {
+        const auto start = std::chrono::floor<SimTime>(std::chrono::system_clock::now().time_since_epoch());
+        machine->board.panel.tap = &spi_.emplace(options_.spi, start, trouble);
+    }
 }
 
 void BoardUnit::set_up_disks(machine::Services& services) {
@@ -204,6 +210,9 @@ nlohmann::ordered_json BoardUnit::ready() const {
     if (udp_) {
         ready["udp"] = udp_->path();
     }
+    if (spi_) {
+        ready["spi"] = spi_->ready();
+    }
     return ready;
 }
 
@@ -217,6 +226,9 @@ std::vector<std::string> BoardUnit::network_paths() const {
     }
     if (udp_) {
         paths.push_back(udp_->path());
+    }
+    if (spi_ && !spi_->network_path().empty()) {
+        paths.push_back(spi_->network_path());
     }
     return paths;
 }

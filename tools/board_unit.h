@@ -27,6 +27,7 @@
 #include "emulator/touch/touch_screen.h"
 #include "tools/panel_folder.h"
 #include "tools/run_options.h"
+#include "tools/spi_port.h"
 
 namespace fauxboard::tools {
 
@@ -79,7 +80,7 @@ class BoardUnit {
   private:
     void set_up_disks(machine::Services& services);
     void set_up_memory(machine::Services& services);
-    void set_up_panel_folder();
+    void set_up_panel();
     void add_faults();
     link::Link& make_wire();
     /// A board that can do without its screen has no line for one when only its USB side was asked for.
@@ -102,6 +103,7 @@ class BoardUnit {
     std::optional<host::EepromCellsFile> eeprom_cells_;
     std::optional<host::JobPlaceFile> job_place_;
     std::optional<PanelFolder> panel_folder_;
+    std::optional<SpiPort> spi_;
     std::unique_ptr<host::Clock> clock_;
     std::unique_ptr<link::Link> wire_;  ///< the line as it is, if it leads out of this process
     std::optional<host::ScreenPlug> plug_;

@@ -23,6 +23,7 @@
 #include "emulator/record/transcript.h"
 #include "emulator/record/transcript_words.h"
 #include "tools/batch.h"
+#include "tools/decode_spi.h"
 #include "tools/report.h"
 
 namespace fauxboard::tools {
@@ -35,6 +36,7 @@ constexpr const char* legend =
   2024-01-02 10:00:00,100 - Send: line                OctoPrint's serial.log; without times, its terminal's
                                                       Send: and Recv:, printcore's SENT: and RECV:
   anything else                                       the line itself
+or, as a whole, what run --spi writes: every packet and command on the wires to a UV panel.
 Marks at the start of a line: ! its checksum is wrong, ? its code or a field is unknown, x it cannot be read,
 * anything else: with --screen, what that screen would have ignored, missed, cut, dropped, misread or crashed on.
 For lines that do not say who said them, that is told by what they say.)";
@@ -93,6 +95,18 @@ class Inputs {
 ExitCode decode(const DecodeOptions& options) {
     try {
         std::ios::sync_with_stdio(false);  // so that lines of a pipe are taken as they come
+        if (options.files.size() <= 1) {
+            const std::string file = options.files.empty() ? "-" : options.files.front();
+            std::error_code error;
+            std::ifstream from_file;
+            if (std::filesystem::is_regular_file(file, error)) {
+                from_file.open(file, std::ios::binary);
+            }
+            std::istream& in = file == "-" ? std::cin : from_file;
+            if ((file == "-" || from_file.is_open()) && is_spi(in)) {
+                return decode_spi(in, file == "-" ? "stdin" : file, options.json);
+            }
+        }
         Inputs inputs(options.files);
         const bool live = options.files.empty();
         std::vector<record::LineJudge> judges = record::line_judges();

@@ -9,6 +9,11 @@
 -- A packet is a line of the wire, in the link type for serial lines (LINKTYPE_RTAC_SERIAL): the event "data sent"
 -- is what the board says, "data received" what it is told. Wireshark's own dissector of that link type shows its 12
 -- bytes; what follows them is taken apart here, by the same rules as `fauxboard decode` does it.
+--
+-- At the end of this file: what passes on the wires to a UV panel, as `fauxboard run --spi FILE.pcapng` has it
+-- (LINKTYPE_USER5), every packet and command by its name:
+--
+--     tshark -X lua_script:tools/fauxboard.lua -r panel.pcapng -Y 'fauxboard_spi.wrong == 1'
 
 local proto = Proto("fauxboard", "Control board and touch screen")
 local header_bytes = 12
@@ -1143,3 +1148,169 @@ function proto.dissector(buffer, pinfo, root)
 end
 
 DissectorTable.get("wtap_encap"):add(wtap.RTAC_SERIAL, proto)
+
+-- ---- the wires to a UV panel ----
+
+local spi = Proto("fauxboard_spi", "Wires to a UV panel")
+local spi_head_bytes = 16
+local spi_marks = { O = "out", I = "in", P = "pin", R = "reset" }
+local spi_chips = { [0] = "fpga", [1] = "left", [2] = "right" }
+local spi_registers = {
+    [0x10] = "sleep in", [0x11] = "sleep out", [0x28] = "display off", [0x29] = "display on",
+    [0xB0] = "read the id", [0xB7] = "configuration",
+}
+local spi_fields = {
+    kind = ProtoField.string("fauxboard_spi.kind", "Kind"),
+    chip = ProtoField.string("fauxboard_spi.chip", "Chip select"),
+    level = ProtoField.uint8("fauxboard_spi.level", "Level"),
+    number = ProtoField.uint32("fauxboard_spi.number", "Transfer"),
+    what = ProtoField.string("fauxboard_spi.what", "What"),
+    words = ProtoField.string("fauxboard_spi.words", "In words"),
+    bank = ProtoField.uint8("fauxboard_spi.bank", "Bank"),
+    line = ProtoField.uint16("fauxboard_spi.line", "Line"),
+    lit = ProtoField.uint16("fauxboard_spi.lit", "Lit pixels"),
+    checksum = ProtoField.uint16("fauxboard_spi.checksum", "Checksum", base.HEX),
+    scan = ProtoField.bool("fauxboard_spi.scan", "Scan"),
+    sdram = ProtoField.bool("fauxboard_spi.sdram", "SDRAM read"),
+    wrong = ProtoField.bool("fauxboard_spi.wrong", "Wrong"),
+    data = ProtoField.bytes("fauxboard_spi.data", "Data"),
+}
+spi.fields = spi_fields
+local spi_wrong = ProtoExpert.new("fauxboard_spi.expert", "Wrong", expert.group.CHECKSUM, expert.severity.WARN)
+spi.experts = { spi_wrong }
+
+-- One row for each byte at the head of the checksum: polynomial 0x1021, highest bit first.
+local crc_rows = {}
+for byte = 0, 255 do
+    local sum = byte * 256
+    for _ = 1, 8 do
+        sum = sum >= 0x8000 and bxor(sum * 2 - 0x10000, 0x1021) or sum * 2
+    end
+    crc_rows[byte] = sum
+end
+
+local function crc_of(text)
+    local sum = 0
+    for i = 1, #text do
+        local high = math.floor(sum / 256)
+        sum = bxor((sum - high * 256) * 256, crc_rows[bxor(high, text:byte(i))])
+    end
+    return sum
+end
+
+local lit_of_byte = {}
+for byte = 0, 255 do
+    local count, left = 0, byte
+    while left > 0 do
+        count = count + left % 2
+        left = math.floor(left / 2)
+    end
+    lit_of_byte[byte] = count
+end
+
+-- The pixels of a line: two halves of 90 bytes, 6 dead ones behind each.
+local function lit_of(text)
+    local count = 0
+    for i = 1, 192 do
+        local place = (i - 1) % 96
+        if place < 90 then count = count + lit_of_byte[text:byte(i)] end
+    end
+    return count
+end
+
+local function command_words(byte)
+    return string.format("bank %d, scan %s, SDRAM %s", math.floor(byte / 16) % 4, byte >= 0x80 and "on" or "off",
+        math.floor(byte / 0x40) % 2 == 1 and "on" or "off")
+end
+
+local function add_command(tree, range)
+    local byte = range:uint()
+    tree:add(spi_fields.bank, range, math.floor(byte / 16) % 4)
+    tree:add(spi_fields.scan, range, byte >= 0x80)
+    tree:add(spi_fields.sdram, range, math.floor(byte / 0x40) % 2 == 1)
+    return command_words(byte)
+end
+
+local function dissect_packet(data, tree)
+    local text = data:raw()
+    local line = text:byte(1) % 16 * 256 + text:byte(2)
+    local bank = math.floor(text:byte(1) / 16) % 4
+    local given, right = data(194, 2):uint(), crc_of(text:sub(1, 194))
+    local lit = lit_of(text:sub(3, 194))
+    tree:add(spi_fields.bank, data(0, 1), bank)
+    tree:add(spi_fields.line, data(0, 2), line)
+    tree:add(spi_fields.lit, data(2, 192), lit)
+    tree:add(spi_fields.checksum, data(194, 2))
+    local words = string.format("bank %d, line %d: %d lit, checksum %04X %s", bank, line, lit, given,
+        given == right and "good" or string.format("wrong, %04X would be right", right))
+    if line >= 2560 then words = words .. "; there is no such line" end
+    return "line", words, given ~= right or line >= 2560
+end
+
+local function nothing(length)
+    return "unknown", length .. " bytes that mean nothing", true
+end
+
+local function dissect_fpga(data, length, tree)
+    local first = length > 0 and data(0, 1):uint() or -1
+    if length == 196 and first >= 0x40 and first < 0x80 then return dissect_packet(data, tree) end
+    if length ~= 3 then return nothing(length) end
+    if first == 0 then
+        return "command", string.format("%02X: ", data(2, 1):uint()) .. add_command(tree, data(2, 1)), false
+    end
+    if first == 0x80 then return "read back", "which command?", false end
+    return nothing(length)
+end
+
+local function dissect_controller(data, length)
+    if length < 3 then return nothing(length) end
+    local known = spi_registers[data(0, 1):uint()]
+    return "register", string.format("%02X = %04X", data(0, 1):uint(), data(1, 2):le_uint()) ..
+        (known and ": " .. known or ""), not known
+end
+
+local function dissect_answer(chip, data, length, tree)
+    if chip ~= 0 then
+        return "register", "id " .. (length < 4 and "?" or string.format("%04X", data(2, 2):uint())), false
+    end
+    if length ~= 3 then return nothing(length) end
+    local byte = data(2, 1):uint()
+    return "read back",
+        string.format("%02X: ", byte) .. add_command(tree, data(2, 1)) .. ", version " .. byte % 16, false
+end
+
+local function dissect_record(kind, chip, level, data, length, tree)
+    if kind == "P" then return "pin", level == 1 and "checksum good" or "checksum bad", level ~= 1 end
+    if kind == "R" then return "reset", level == 1 and "released" or "pulled low", false end
+    if kind == "I" then return dissect_answer(chip, data, length, tree) end
+    if chip == 0 then return dissect_fpga(data, length, tree) end
+    return dissect_controller(data, length)
+end
+
+function spi.dissector(buffer, pinfo, root)
+    if buffer:len() < spi_head_bytes or buffer(0, 1):uint() ~= 0xA5 then return 0 end
+    local kind = buffer(1, 1):string()
+    local chip = buffer(2, 1):uint()
+    local length = buffer:len() - spi_head_bytes
+    if not spi_marks[kind] or not spi_chips[chip] then return 0 end
+    local tree = root:add(spi, buffer())
+    tree:add(spi_fields.kind, buffer(1, 1), spi_marks[kind])
+    tree:add(spi_fields.chip, buffer(2, 1), spi_chips[chip])
+    tree:add(spi_fields.level, buffer(3, 1))
+    tree:add(spi_fields.number, buffer(6, 4))
+    local data = length > 0 and buffer(spi_head_bytes) or nil
+    if data then tree:add(spi_fields.data, data) end
+    local what, words, wrong = dissect_record(kind, chip, buffer(3, 1):uint(), data, length, tree)
+    tree:add(spi_fields.what, what):set_generated()
+    tree:add(spi_fields.words, words):set_generated()
+    tree:add(spi_fields.wrong, wrong):set_generated()
+    if wrong then tree:add_proto_expert_info(spi_wrong, words) end
+    local from_board = kind == "O" or kind == "R"
+    pinfo.cols.protocol = "fauxboard_spi"
+    pinfo.cols.src = from_board and "board" or spi_chips[chip]
+    pinfo.cols.dst = from_board and spi_chips[chip] or "board"
+    pinfo.cols.info = what .. ": " .. words
+    return buffer:len()
+end
+
+DissectorTable.get("wtap_encap"):add(wtap.USER5, spi)

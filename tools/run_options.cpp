@@ -147,6 +147,12 @@ void declare_run_options(CLI::App& command, RunOptions& options) {
         .add_option("--panel", options.panel,
                     "Folder for what the UV panel of a board that has one shows: a PNG each, and panel.jsonl")
         ->type_name("DIR");
+    command
+        .add_option(
+            "--spi", options.spi,
+            "The wires to that panel, as records: into a file (FILE.pcapng for Wireshark), or to somebody "
+            "who may answer for the FPGA")
+        ->type_name("FILE|pty[=LINK]|HOST:PORT");
     declare_script(command, options);
     declare_time(command, options);
     declare_talk(command, options);

@@ -38,6 +38,7 @@ struct RunOptions {
     std::string udisk;                ///< folder; empty: none
     std::string eeprom;               ///< file; empty: in memory
     std::string panel;                ///< folder for what a UV panel shows; empty: none
+    std::string spi;                  ///< where the wires to a UV panel lead; empty: nowhere
     std::string record;               ///< file; empty: none
     std::string control;              ///< socket of the control channel; empty: none
     std::optional<std::string> web;   ///< "HOST:PORT" of the panel in the browser; nothing: none

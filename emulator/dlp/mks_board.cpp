@@ -95,7 +95,7 @@ void MksBoard::start_panel(SimTime now) {
         raise(Event::panel_failed);
         return;
     }
-    uv_test.load(now);
+    uv_test.load(now + UvPanel::set_up_time);
 }
 
 void MksBoard::cut_power(SimTime now) {

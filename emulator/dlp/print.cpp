@@ -210,6 +210,7 @@ void Print::apply_changes(std::uint32_t n, LayerPlan& plan) const {
 
 void Print::begin_load(SimTime now) {
     parts_.panel.command(work_bank, false, false, now);
+    load_begun_ = now;
     load_due_ = now + from_seconds(picture_load_s(parts_.firmware) * load_factor);
 }
 
@@ -233,7 +234,8 @@ void Print::end_load(SimTime now) {
         lines.next(line);
         picture_sum_ = add_line(picture_sum_, line);
         std::copy(line.begin(), line.end(), packet.begin() + 2);
-        parts_.panel.send_line(packet, n, now);
+        // Who listens sees the lines spread over the time that they take.
+        parts_.panel.send_line(packet, n, load_begun_ + (now - load_begun_) * n / panel_lines);
     }
     if (checked.failed()) {
         return lose_picture("The stick does not give the picture: " + lines.problem(), now);

@@ -172,6 +172,7 @@ class Print {
     bool needs_picture_ = false;  ///< the layer's picture could not be loaded
     bool rise_told_ = false;
     std::uint64_t picture_sum_ = 0;  ///< of the lines sent, see Fpga::sum()
+    SimTime load_begun_{0};
     SimTime load_due_ = never;
     SimTime until_ = never;  ///< end of a countdown
     SimTime started_{0};

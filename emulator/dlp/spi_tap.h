@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 
 #include "emulator/dlp/time.h"
@@ -16,15 +15,15 @@ enum class ChipSelect : std::uint8_t { fpga = 0, left = 1, right = 2 };
 class SpiTap {
   public:
     virtual ~SpiTap() = default;
-    /// One transfer with chip select low: what the processor sent, and what came back meanwhile.
+    /// One transfer with chip select low: what the processor sends, and what comes back meanwhile: from what
+    /// is made up here, unless somebody puts something else there.
     virtual void transfer(SimTime now, ChipSelect chip, std::span<const std::uint8_t> out,
-                          std::span<const std::uint8_t> in) = 0;
+                          std::span<std::uint8_t> in) = 0;
+    /// The board looks at the checksum pin, which the FPGA made up here drives `good` or bad. What the board
+    /// sees.
+    virtual bool pin(SimTime now, bool good) = 0;
     /// The reset line of the FPGA.
     virtual void reset(SimTime now, bool low) = 0;
-    /// What somebody at the other end says of the checksum pin and of the byte read back; nothing: they are
-    /// those of the FPGA made up here.
-    virtual std::optional<bool> pin() const { return std::nullopt; }
-    virtual std::optional<std::uint8_t> read_back() const { return std::nullopt; }
 };
 
 }  // namespace fauxboard::dlp

@@ -45,8 +45,24 @@ void UvPanel::controller(std::uint8_t reg, std::uint16_t value, SimTime now) {
         in[2] = controller_id & 0xFF;
         in[3] = controller_id >> 8;
     }
-    tap->transfer(now, ChipSelect::left, out, in);
-    tap->transfer(now, ChipSelect::right, out, in);
+    for (const ChipSelect chip : {ChipSelect::left, ChipSelect::right}) {
+        tap->transfer(now, chip, out, in);
+    }
+}
+
+/// A transfer with the FPGA, of which others may know.
+void UvPanel::transfer(std::span<const std::uint8_t> out, std::span<std::uint8_t> in, SimTime now) {
+    fpga_.transfer(out, in);
+    if (tap != nullptr) {
+        tap->transfer(now, ChipSelect::fpga, out, in);
+    }
+}
+
+void UvPanel::packet(SimTime now) {
+    fpga_.packet(last_);
+    if (tap != nullptr) {
+        tap->transfer(now, ChipSelect::fpga, last_, {});
+    }
 }
 
 bool UvPanel::set_up(bool clean, SimTime now) {
@@ -99,13 +115,8 @@ void UvPanel::command(unsigned bank, bool scan, bool read, SimTime now) {
     const std::array<std::uint8_t, 3> ask{0x80, 0xFF, 0xFF};
     for (int tries = 0; tries < most_tries; ++tries) {
         std::array<std::uint8_t, 3> in{};
-        fpga_.transfer(write, in);
-        if (tap != nullptr) tap->transfer(now, ChipSelect::fpga, write, in);
-        fpga_.transfer(ask, in);
-        if (tap != nullptr) {
-            in[2] = tap->read_back().value_or(in[2]);
-            tap->transfer(now, ChipSelect::fpga, ask, in);
-        }
+        transfer(write, in, now);
+        transfer(ask, in, now);
         if ((in[2] & 0xF0) == write[2]) {
             return;
         }
@@ -121,7 +132,7 @@ void UvPanel::begin_picture(unsigned bank) {
 
 /// What the pin says of the packet before; up to five more tries when it was bad.
 void UvPanel::check_line(SimTime now) {
-    const auto good = [&] { return tap != nullptr ? tap->pin().value_or(fpga_.crc_pin()) : fpga_.crc_pin(); };
+    const auto good = [&] { return tap != nullptr ? tap->pin(now, fpga_.crc_pin()) : fpga_.crc_pin(); };
     if (!last_open_) {
         return;
     }
@@ -132,9 +143,7 @@ void UvPanel::check_line(SimTime now) {
         }
         ++counters_.resends;
         ++(dark(last_) ? counters_.fill_retries : counters_.data_retries);
-        fpga_.packet(last_);
-        if (tap != nullptr)
-            tap->transfer(now, ChipSelect::fpga, last_, std::array<std::uint8_t, packet_bytes>{});
+        packet(now);
     }
     if (!good()) {
         ++counters_.failed_lines;
@@ -142,13 +151,11 @@ void UvPanel::check_line(SimTime now) {
     }
 }
 
-void UvPanel::send_line(Packet& packet, unsigned line, SimTime now) {
+void UvPanel::send_line(Packet& data, unsigned line, SimTime now) {
     check_line(now);
-    seal(packet, bank_, line);
-    fpga_.packet(packet);
-    if (tap != nullptr)
-        tap->transfer(now, ChipSelect::fpga, packet, std::array<std::uint8_t, packet_bytes>{});
-    last_ = packet;
+    seal(data, bank_, line);
+    last_ = data;
+    packet(now);
     last_open_ = true;
 }
 

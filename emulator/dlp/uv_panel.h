@@ -31,7 +31,7 @@ class UvPanel {
 
     /// Packets of one picture, with what the board does about bad ones.
     void begin_picture(unsigned bank);
-    void send_line(Packet& packet, unsigned line, SimTime now);
+    void send_line(Packet& data, unsigned line, SimTime now);
     /// The last line is checked, too. Lines of the picture that the FPGA never took.
     unsigned end_picture(SimTime now);
 
@@ -62,6 +62,9 @@ class UvPanel {
   private:
     static constexpr int most_tries = 5;
     void check_line(SimTime now);
+    void transfer(std::span<const std::uint8_t> out, std::span<std::uint8_t> in, SimTime now);
+    /// Sends the packet at hand.
+    void packet(SimTime now);
     void controller(std::uint8_t reg, std::uint16_t value, SimTime now);
 
     Fpga fpga_;

@@ -81,9 +81,10 @@ std::string section() {
     return block(section_block, body);
 }
 
-std::string interface_of(std::string_view name, std::string_view description) {
+std::string interface_of(std::string_view name, std::string_view description,
+                         std::uint16_t link_type = pcapng_link_type) {
     std::string body;
-    little16(body, pcapng_link_type);
+    little16(body, link_type);
     little16(body, 0);
     little32(body, 0);  // no limit of a packet's length
     option(body, option_name, name);
@@ -91,6 +92,24 @@ std::string interface_of(std::string_view name, std::string_view description) {
     option(body, option_resolution, "\x06");  // times in microseconds
     end_of_options(body);
     return block(interface_block, body);
+}
+
+std::string packet_of(SimTime since_epoch, std::uint32_t interface, bool out, std::string_view data) {
+    const auto us = static_cast<std::uint64_t>(since_epoch.count());
+    const auto length = static_cast<std::uint32_t>(data.size());
+    std::string body;
+    little32(body, interface);
+    little32(body, static_cast<std::uint32_t>(us >> 32));
+    little32(body, static_cast<std::uint32_t>(us & 0xFFFFFFFF));
+    little32(body, length);  // captured
+    little32(body, length);  // on the wire
+    body += data;
+    pad(body);
+    std::string flags;
+    little32(flags, out ? outbound : inbound);
+    option(body, option_packet_flags, flags);
+    end_of_options(body);
+    return block(packet_block, body);
 }
 
 }  // namespace
@@ -103,27 +122,25 @@ std::string pcapng_head() {
 std::string pcapng_packet(SimTime since_epoch, Direction direction, std::string_view bytes) {
     const auto us = static_cast<std::uint64_t>(since_epoch.count());
     const bool from_board = direction == Direction::to_screen;
-    const auto length = static_cast<std::uint32_t>(bytes.size() + pcapng_event_bytes);
-    std::string body;
-    little32(body, from_board ? 0 : 1);  // interface
-    little32(body, static_cast<std::uint32_t>(us >> 32));
-    little32(body, static_cast<std::uint32_t>(us & 0xFFFFFFFF));
-    little32(body, length);  // captured
-    little32(body, length);  // on the wire
-    big32(body, static_cast<std::uint32_t>(us / 1'000'000));
-    big32(body, static_cast<std::uint32_t>(us % 1'000'000));
-    body += from_board ? '\x01' : '\x02';
-    body.append(3, '\0');
-    body += bytes;
-    pad(body);
-    std::string flags;
-    little32(flags, from_board ? outbound : inbound);
-    option(body, option_packet_flags, flags);
-    end_of_options(body);
-    return block(packet_block, body);
+    std::string data;
+    data.reserve(bytes.size() + pcapng_event_bytes);
+    big32(data, static_cast<std::uint32_t>(us / 1'000'000));
+    big32(data, static_cast<std::uint32_t>(us % 1'000'000));
+    data += from_board ? '\x01' : '\x02';
+    data.append(3, '\0');
+    data += bytes;
+    return packet_of(since_epoch, from_board ? 0 : 1, from_board, data);
 }
 
-PcapngWriter::PcapngWriter(std::string file, SimTime start, OnTrouble on_trouble)
+std::string pcapng_user_head(std::string_view interface, std::string_view description) {
+    return section() + interface_of(interface, description, pcapng_user_type);
+}
+
+std::string pcapng_user_packet(SimTime since_epoch, bool out, std::string_view bytes) {
+    return packet_of(since_epoch, 0, out, bytes);
+}
+
+PcapngWriter::PcapngWriter(std::string file, SimTime start, OnTrouble on_trouble, std::string_view head)
     : file_(std::move(file)),
       start_(start),
       on_trouble_(std::move(on_trouble)),
@@ -133,11 +150,15 @@ PcapngWriter::PcapngWriter(std::string file, SimTime start, OnTrouble on_trouble
             fmt::format("The capture {} cannot be written ({}). Name a file in a folder of yours.", file_,
                         std::system_category().message(errno)));
     }
-    write(pcapng_head());
+    write(head);
 }
 
 void PcapngWriter::packet(SimTime now, Direction direction, std::string_view bytes) {
-    if (fd_ && write(pcapng_packet(start_ + now, direction, bytes))) {
+    block(pcapng_packet(start_ + now, direction, bytes));
+}
+
+void PcapngWriter::block(std::string_view packet) {
+    if (fd_ && write(packet)) {
         ++packets_;
     }
 }

@@ -32,6 +32,14 @@ std::string pcapng_head();
 std::string pcapng_packet(machine::SimTime since_epoch, protocol::Direction direction,
                           std::string_view bytes);
 
+// Captures of something else than a line hold its bytes as they are, in a link type that is left to users:
+// Wireshark shows them with the dissector in tools/fauxboard.lua.
+inline constexpr std::uint16_t pcapng_user_type = 152;  // LINKTYPE_USER5
+
+/// One section, one interface.
+std::string pcapng_user_head(std::string_view interface, std::string_view description);
+std::string pcapng_user_packet(machine::SimTime since_epoch, bool outbound, std::string_view bytes);
+
 /// Writes a capture, each packet at once, so that a kill loses none.
 class PcapngWriter {
   public:
@@ -40,9 +48,13 @@ class PcapngWriter {
 
     /// Creates or empties `file`. `start`: real time, since 1970, at which the tap's time was 0. Throws
     /// link::HostError.
-    PcapngWriter(std::string file, machine::SimTime start, OnTrouble on_trouble);
+    PcapngWriter(std::string file, machine::SimTime start, OnTrouble on_trouble,
+                 std::string_view head = pcapng_head());
 
     void packet(machine::SimTime now, protocol::Direction direction, std::string_view bytes);
+    /// A packet that was made already.
+    void block(std::string_view packet);
+    machine::SimTime start() const { return start_; }
     std::uint64_t packets() const { return packets_; }
 
   private:

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "emulator/dlp/panel_line.h"
+#include "emulator/dlp/spi_frames.h"
 #include "emulator/record/pcapng.h"
 #include "emulator/record/recording.h"
 #include "protocol/annotate.h"
@@ -174,6 +176,57 @@ TEST_CASE("the dissector finds the fields that decode finds, in a recording of a
         CAPTURE(expected_names(talk[i]));
         CHECK(names_are_in(rows[i], talk[i]));
         CHECK_FALSE(rows[i].starts_with("wrong"));
+    }
+}
+
+TEST_CASE("the dissector names packets and commands on the wires to a UV panel as decode does") {
+    if (!tshark_is_here()) {
+        return;
+    }
+    using dlp::ChipSelect;
+    using dlp::SpiKind;
+    dlp::PanelLine lit{};
+    dlp::light(lit, 700, 800);
+    const dlp::Packet packet = dlp::make_packet(lit, 1, 1280);
+    const std::string good(packet.begin(), packet.end());
+    std::string damaged = good;
+    damaged[100] ^= 1;
+    std::vector<dlp::SpiRecord> records;
+    const auto add = [&](SpiKind kind, ChipSelect chip, bool level, std::string data) {
+        records.push_back({kind, chip, level, 7, dlp::ms(300), std::move(data)});
+    };
+    add(SpiKind::out, ChipSelect::fpga, false, good);
+    add(SpiKind::out, ChipSelect::fpga, false, damaged);
+    add(SpiKind::pin, ChipSelect::fpga, false, {});
+    for (const char byte : {'\xC0', '\x20', '\x80'}) {
+        add(SpiKind::out, ChipSelect::fpga, false, {0, 0, byte});
+    }
+    add(SpiKind::out, ChipSelect::fpga, false, "\x80\xFF\xFF");
+    add(SpiKind::in, ChipSelect::fpga, false, {0, 0, '\xD2'});
+    add(SpiKind::out, ChipSelect::fpga, false, "what?");
+    add(SpiKind::reset, ChipSelect::fpga, false, {});
+    add(SpiKind::reset, ChipSelect::fpga, true, {});
+    add(SpiKind::out, ChipSelect::left, false, {'\xB7', 0x0B, 3, 0});
+    add(SpiKind::out, ChipSelect::right, false, {0x33, 0, 0, 0});
+    add(SpiKind::in, ChipSelect::left, false, {0, 0, 0x28, 0x28});
+    TemporaryFolder folder;
+    {
+        record::PcapngWriter capture(folder.file("capture.pcapng"), machine::SimTime{0}, {},
+                                     record::pcapng_user_head("spi", "wires"));
+        for (const dlp::SpiRecord& record : records) {
+            capture.block(record::pcapng_user_packet(record.at, true, dlp::spi_bytes(record)));
+        }
+    }
+    const Outcome outcome = run_shell(
+        fmt::format("tshark -X lua_script:{} -r {} -T fields -E separator='|' -e fauxboard_spi.what -e "
+                    "fauxboard_spi.words -e fauxboard_spi.wrong 2>{}",
+                    script, folder.file("capture.pcapng"), folder.file("err")));
+    REQUIRE(outcome.code == 0);
+    const auto rows = lines_of(outcome.out);
+    REQUIRE(rows.size() == records.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const dlp::SpiWords words = dlp::words_of(records[i]);
+        CHECK(rows[i] == fmt::format("{}|{}|{}", words.what, words.words, words.wrong ? 1 : 0));
     }
 }
 

@@ -1,0 +1,180 @@
+#include "tools/spi_port.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <regex>
+
+#include "emulator/link/host_error.h"
+
+namespace fauxboard::tools {
+namespace {
+
+using dlp::ChipSelect;
+using dlp::SimTime;
+using dlp::SpiKind;
+using dlp::SpiRecord;
+
+/// How long an answer may take, and how long somebody may stop reading.
+constexpr std::chrono::milliseconds answer_limit{250};
+constexpr std::chrono::milliseconds write_limit{2000};
+constexpr std::size_t most_waiting = 1UL << 16;
+
+std::string_view text_of(std::span<const std::uint8_t> bytes) {
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+bool is_host_port(const std::string& where) {
+    static const std::regex form(R"((\[[0-9a-fA-F:.%]+\]|[^/:]*):[0-9]+)");
+    return std::regex_match(where, form);
+}
+
+}  // namespace
+
+SpiPort::SpiPort(const std::string& where, SimTime start, OnTrouble on_trouble)
+    : path_(where), on_trouble_(std::move(on_trouble)) {
+    if (where == "pty" || where.starts_with("pty=")) {
+        stream_ = link::make_direct_pty(where.substr(std::min<std::size_t>(where.size(), 4)));
+    } else if (is_host_port(where)) {
+        stream_ = link::make_direct_tcp(where);
+    } else if (where.ends_with(".pcapng")) {
+        capture_.emplace(where, start, on_trouble_,
+                         record::pcapng_user_head("spi", "the wires to the UV panel"));
+    } else if (!file_.emplace(where, std::ios::binary | std::ios::trunc)) {
+        throw link::HostError(fmt::format(
+            "{} cannot be written to. Name a file in a folder of yours, pty, or HOST:PORT.", where));
+    }
+    if (stream_) {
+        path_ = stream_->path();
+    }
+}
+
+nlohmann::ordered_json SpiPort::ready() const {
+    return {{"link", stream_ ? stream_->kind() : "file"}, {"path", path_}};
+}
+
+std::string SpiPort::network_path() const {
+    return stream_ && stream_->kind() == "tcp" ? path_ : std::string();
+}
+
+// What the board says.
+// -----------------------------------------------------------------------------------------------
+
+void SpiPort::tell(SpiRecord record) {
+    record.at = last_ = std::max(last_, record.at);
+    if (capture_) {
+        capture_->block(record::pcapng_user_packet(capture_->start() + record.at, record.kind != SpiKind::in,
+                                                   dlp::spi_bytes(record)));
+        return;
+    }
+    waiting_ += dlp::spi_bytes(record);
+    if (waiting_.size() >= most_waiting) {
+        flush();
+    }
+}
+
+void SpiPort::flush() {
+    if (file_ && !waiting_.empty() &&
+        !file_->write(waiting_.data(), static_cast<std::streamsize>(waiting_.size())).flush()) {
+        on_trouble_(fmt::format("{} cannot be written to; the records end here.", path_));
+        file_.reset();
+    } else if (stream_) {
+        const bool up = stream_->up();
+        if (up && !stream_->write(waiting_, write_limit) && was_up_) {
+            on_trouble_(fmt::format("whoever is at {} does not read; records are lost.", path_));
+        }
+        if (was_up_ && !stream_->up()) {
+            pins_.awaited = bytes_.awaited = false;
+            splitter_ = {};
+        }
+        was_up_ = stream_->up();
+    }
+    waiting_.clear();
+}
+
+void SpiPort::transfer(SimTime now, ChipSelect chip, std::span<const std::uint8_t> out,
+                       std::span<std::uint8_t> in) {
+    ++number_;
+    tell({SpiKind::out, chip, false, number_, now, std::string(text_of(out))});
+    const bool asks = chip == ChipSelect::fpga && in.size() == 3 && out[0] != 0;
+    if (asks) {
+        flush();
+        hear();
+        if (const auto answer = await(bytes_); answer && answer->data.size() == in.size()) {
+            std::copy(answer->data.begin(), answer->data.end(), in.begin());
+            return;
+        }
+    }
+    if (std::any_of(in.begin(), in.end(), [](std::uint8_t byte) { return byte != 0; })) {
+        tell({SpiKind::in, chip, false, number_, now, std::string(text_of(in))});
+    }
+}
+
+bool SpiPort::pin(SimTime now, bool good) {
+    if (pins_.awaited) {
+        flush();
+        if (const auto answer = await(pins_)) {
+            return answer->level;
+        }
+    }
+    if (good != told_pin_) {
+        told_pin_ = good;
+        tell({SpiKind::pin, ChipSelect::fpga, good, number_, now, {}});
+    }
+    return good;
+}
+
+void SpiPort::reset(SimTime now, bool low) {
+    tell({SpiKind::reset, ChipSelect::fpga, !low, number_, now, {}});
+    flush();
+    hear();
+}
+
+// What the other end says.
+// -----------------------------------------------------------------------------------------------
+
+void SpiPort::hear(const SpiRecord& record) {
+    for (Answers* answers : {&pins_, &bytes_}) {
+        if (record.kind == answers->kind) {
+            answers->awaited = true;
+            // One to an earlier transfer comes too late.
+            if (record.number == number_) answer_ = record;
+        }
+    }
+}
+
+/// What has come so far.
+void SpiPort::hear() {
+    std::array<char, 4096> room{};
+    for (std::size_t size = room.size(); stream_ && size == room.size();) {
+        size = stream_->read(room, std::chrono::milliseconds{0});
+        splitter_.feed({room.data(), size});
+        while (const auto record = splitter_.next()) {
+            hear(*record);
+        }
+    }
+}
+
+std::optional<SpiRecord> SpiPort::await(Answers& answers) {
+    const auto is_it = [&] { return answer_ && answer_->kind == answers.kind && answer_->number == number_; };
+    const auto until = std::chrono::steady_clock::now() + answer_limit;
+    while (answers.awaited && !is_it()) {
+        const auto left =
+            std::chrono::ceil<std::chrono::milliseconds>(until - std::chrono::steady_clock::now());
+        std::array<char, 4096> room{};
+        const std::size_t size = left.count() > 0 ? stream_->read(room, left) : 0;
+        splitter_.feed({room.data(), size});
+        while (const auto record = splitter_.next()) {
+            hear(*record);
+        }
+        if (size == 0 && !is_it()) {
+            answers.awaited = false;
+            on_trouble_(fmt::format("whoever is at {} no longer says {}: that of the made-up FPGA counts.",
+                                    path_, answers.what));
+        }
+    }
+    return is_it() ? std::exchange(answer_, std::nullopt) : std::nullopt;
+}
+
+}  // namespace fauxboard::tools

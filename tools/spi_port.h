@@ -1,0 +1,72 @@
+#pragma once
+
+#include <array>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "emulator/dlp/spi_frames.h"
+#include "emulator/link/direct_stream.h"
+#include "emulator/record/pcapng.h"
+
+namespace fauxboard::tools {
+
+/// `run --spi FILE|pty[=LINK]|HOST:PORT`: the wires to the UV panel as records (see dlp/spi_frames.h), in a
+/// file, in a capture (FILE.pcapng), or for somebody at the other end, who may answer.
+///
+/// Who has sent a 'P' record is waited for after each line, who has sent an 'I' record after each question
+/// for the command byte: the answer is a record of the same kind with the number of the transfer. One that
+/// does not come in time is that of the FPGA made up here, and nobody is waited for until the next one comes.
+class SpiPort final : public dlp::SpiTap {
+  public:
+    using OnTrouble = std::function<void(std::string_view sentence)>;
+
+    /// `start`: real time, since 1970, at which virtual time was 0. Throws link::HostError, link::LinkError.
+    SpiPort(const std::string& where, machine::SimTime start, OnTrouble on_trouble);
+    ~SpiPort() override { flush(); }
+    SpiPort(const SpiPort&) = delete;
+    SpiPort& operator=(const SpiPort&) = delete;
+
+    /// {"link": "file", "path": ...}
+    nlohmann::ordered_json ready() const;
+    /// Where it listens for TCP; "" when it does not.
+    std::string network_path() const;
+
+    void transfer(dlp::SimTime now, dlp::ChipSelect chip, std::span<const std::uint8_t> out,
+                  std::span<std::uint8_t> in) override;
+    bool pin(dlp::SimTime now, bool good) override;
+    void reset(dlp::SimTime now, bool low) override;
+
+  private:
+    /// Whether the other end answers with records of a kind.
+    struct Answers {
+        dlp::SpiKind kind;
+        std::string_view what;
+        bool awaited = false;
+    };
+    void tell(dlp::SpiRecord record);
+    void flush();
+    void hear();
+    void hear(const dlp::SpiRecord& record);
+    std::optional<dlp::SpiRecord> await(Answers& answers);
+
+    std::string path_;
+    OnTrouble on_trouble_;
+    std::optional<std::ofstream> file_;
+    std::optional<record::PcapngWriter> capture_;
+    std::unique_ptr<link::DirectStream> stream_;
+    std::string waiting_;  ///< records not handed on yet
+    dlp::SpiSplitter splitter_;
+    Answers pins_{dlp::SpiKind::pin, "the checksum pin"};
+    Answers bytes_{dlp::SpiKind::in, "the command byte"};
+    std::optional<dlp::SpiRecord> answer_;  ///< the one that is waited for
+    std::uint32_t number_ = 0;              ///< of the last transfer
+    dlp::SimTime last_{0};                  ///< time of the last record: there is no going back
+    bool told_pin_ = true;
+    bool was_up_ = false;
+};
+
+}  // namespace fauxboard::tools
