@@ -14,7 +14,7 @@ namespace {
 constexpr const char* examples =
     R"--(Examples:
   fauxboard screen --port /tmp/screen press "X+ (30mm)"      the end of a path is enough
-  fauxboard screen --port /tmp/screen press Printing "File 1" Start
+  fauxboard screen --port /tmp/screen press Printing "File 1" yes
   fauxboard screen --port /tmp/screen press "Screen lock PW=1234"
   fauxboard screen --port auto tour --junit tour.xml         every button of a real board
   fauxboard screen --tcp :4000 show Control/Speed

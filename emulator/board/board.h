@@ -67,6 +67,8 @@ class Observer {
     /// Something is done to the machine by world() or act(), in the words of behaviour::action_words(); told
     /// before it is done.
     virtual void on_world(SimTime /*now*/, std::string_view /*words*/) {}
+    /// The board starts anew by itself; what waited in it is lost.
+    virtual void on_restart(SimTime /*now*/) {}
 };
 
 struct Options {

@@ -75,8 +75,8 @@ std::string Board::urgent_command(std::string_view line, const protocol::HostLin
 void Board::take_command_line(Channel channel, std::string_view bytes) {
     Port& from = port(channel);
     if (from.deaf_at == time_) {
-        // It lay behind a bad line in the buffer that the firmware then throws away. It was on the wire all the
-        // same, and a recording holds it.
+        // It lay behind a bad line in the buffer that the firmware then throws away. It was on the wire all
+        // the same, and a recording holds it.
         ++counters_.requests_lost;
         return tell_received(channel, bytes, Verdict::queue_full);
     }
@@ -88,7 +88,10 @@ void Board::take_command_line(Channel channel, std::string_view bytes) {
     machine::HostSide::Line& counted = machine_->host_side().lines[number];
     const bool writing = machine_->host_side().writing(number);
     const HostLineFault fault = judge(framed, counted.last, writing);
-    const bool blank = framed.body.empty() && !framed.numbered;
+    const bool blank = line.find_first_not_of(' ') == std::string_view::npos;
+    // A line that is nothing but a checksum is no command, and told as one that nobody knows.
+    const std::string_view command =
+        framed.body.empty() && !writing ? line.substr(std::min(line.find('*'), line.size())) : framed.body;
     // The emergency parser is off while a file is written; what is looked for in whole lines is found.
     const bool looks = !machine_->hung() && !(writing && machine_->config().host.emergency_parser);
     const std::string urgent = looks ? urgent_command(line, framed, fault) : std::string();
@@ -97,7 +100,7 @@ void Board::take_command_line(Channel channel, std::string_view bytes) {
         ++counters_.requests_lost;
         verdict = Verdict::queue_full;
     } else if (verdict == Verdict::accepted && !blank &&
-               !from.commands.push({framed.number, framed.numbered, !urgent.empty()}, framed.body)) {
+               !from.commands.push({framed.number, framed.numbered, !urgent.empty()}, command)) {
         // Its number does not count as taken, so a host that numbers its lines is asked for it again.
         ++counters_.requests_lost;
         verdict = Verdict::queue_full;

@@ -156,6 +156,9 @@ void Board::settle(std::optional<Channel> asker) {
     asker_.reset();
     machine_->die_if_told();
     if (machine_->take_reset()) {
+        if (options_.observer != nullptr) {
+            options_.observer->on_restart(time_);
+        }
         power_on(time_);
         return;
     }

@@ -23,6 +23,7 @@ inline constexpr auto common_events = std::to_array<EventInfo>({
     {"job.paused", "the job has come to rest with the head parked"},
     {"job.resumed", "a paused job goes on"},
     {"job.stopped", "the job was stopped before its end"},
+    {"job.replaced", "the job ended before its end because another file was selected"},
     {"job.finished", "the job reached its end"},
     {"job.closed", "the finished job is no longer shown; the board is idle"},
     {"job.refused", "what was asked for cannot be done while a job is under way"},

@@ -12,7 +12,7 @@ void Machine::select_file(std::string_view name, bool replaces) {
     if (replaces && !refusing && job.stop()) {
         forget_file();
         job_gives_way();
-        events.raise(event("job.stopped"));
+        events.raise(event("job.replaced"));
     }
     if (job.active() || refusing) {
         events.raise(event("job.refused"));

@@ -159,6 +159,11 @@ void Tour::start_press(Goal& goal, const std::string& path) {
     goal.row = meant.row;
     goal.input = meant.input;
     goal.phase = Phase::walking;
+    name(goal);
+}
+
+/// Says in the goal's result which button, of which row, with what text is meant.
+void Tour::name(Goal& goal) const {
     goal.result.button = screen_.profile().buttons[goal.button].path;
     if (goal.row != 0) goal.result.button += fmt::format(" {}", goal.row);
     if (goal.input) goal.result.button += '=' + short_text(*goal.input);
@@ -215,6 +220,7 @@ bool Tour::prepare(Goal& goal) {
         before.button = *meant.button;
         before.row = meant.row;
         before.input = meant.input;
+        name(before);
         before.steps = pointers(screen_.profile().buttons[*meant.button].prepare);
         goals_.push_back(std::move(before));
     }

@@ -78,6 +78,7 @@ class Tour {
     bool step();
     void start_next();
     void start_press(Goal& goal, const std::string& path);
+    void name(Goal& goal) const;
     bool prepare(Goal& goal);
     bool walk(Goal& goal);
     bool touch_on_the_way(Goal& goal, const Step& step);

@@ -60,11 +60,8 @@ void World::make_board() {
     board_ = std::make_unique<board::Board>(cast_.profile, services, options);
     board_->connect(Channel::host, true);
     ledger_.lines_heard = ledger_.lines_said = 0;
-    ledger_.commands_taken = ledger_.commands_acknowledged = 0;
-    ledger_.ok_of_resend = false;
     ledger_.before = now_;
-    new_job();
-    line_number_ = 0;
+    forget_commands();
     board_->power_on(now_);
     take_output();
 }
@@ -100,9 +97,22 @@ void World::on_notice(SimTime, board::Level, std::string_view text) {
 }
 
 void World::on_event(SimTime, machine::EventId event) {
-    if (event->name == "job.started" || event->name == "job.stopped" || event->name == "file.selected") {
+    if (event->name == "job.started" || event->name == "job.stopped" || event->name == "job.replaced" ||
+        event->name == "file.selected") {
         new_job();
     }
+}
+
+void World::on_restart(SimTime) {
+    forget_commands();
+}
+
+/// The board starts anew: what it was told before will not be acknowledged.
+void World::forget_commands() {
+    new_job();
+    ledger_.commands_taken = ledger_.commands_acknowledged = 0;
+    ledger_.ok_of_resend = false;
+    line_number_ = 0;
 }
 
 /// Where the job under way is executed: a place at which it may be taken up again.
@@ -267,11 +277,9 @@ void World::touch(fault::Dice& dice) {
 // -----------------------------------------------------------------------------------------------
 
 void World::reset() {
-    new_job();
-    ledger_.commands_taken = ledger_.commands_acknowledged = 0;
+    forget_commands();
     board_->power_on(now_);
     take_output();
-    line_number_ = 0;
 }
 
 void World::power_cut(fault::Dice& dice) {

@@ -65,6 +65,7 @@ class World final : private board::Observer {
         ledger_.whole[path].insert(std::move(content));
     }
     void new_job() { ++ledger_.job_number; }
+    void forget_commands();
 
     const Cast& cast() const { return cast_; }
     board::Board& board() { return *board_; }
@@ -78,6 +79,7 @@ class World final : private board::Observer {
     void on_sent(SimTime now, board::Channel channel, std::string_view line) override;
     void on_notice(SimTime now, board::Level level, std::string_view text) override;
     void on_event(SimTime now, machine::EventId event) override;
+    void on_restart(SimTime now) override;
 
     void make_board();
     void run_to(SimTime time);

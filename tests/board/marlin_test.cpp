@@ -198,6 +198,24 @@ TEST_CASE_FIXTURE(Marlin, "Marlin: a print from the card, told to both, stopped,
 }
 
 TEST_CASE_FIXTURE(Marlin,
+                  "Marlin: another file takes a running one's place, and nothing is run for its end") {
+    put("LONG.G", "G4 S1000\n");
+    put("SHORT.G", "G4 S1\n");
+    for (const char* pause : {"", "M25"}) {
+        CAPTURE(pause);
+        say("M23 long.g");
+        say("M24");
+        say(pause);
+        CHECK(told("M23 short.g") ==
+              "echo:Now fresh file: short.g\nFile opened: short.g Size: 6\nFile selected\nok\n");
+        say("M24");
+        forget();
+        run_for(5);
+        CHECK(said() == "Done printing file\n");  // no position, as after M524: X and Y are not homed
+    }
+}
+
+TEST_CASE_FIXTURE(Marlin,
                   "Marlin: a file's own commands follow the rules, and its replies go nowhere on two lines") {
     put("TALK.G",
         "M118 P0 from the file\nM118 quiet\nM92\nM301 P33\nM73 P40 R12\nM808 L3\nM118 P0 again\nM808\nG4 "

@@ -113,6 +113,43 @@ TEST_CASE("a board with one reply broken makes the tour fail with a sentence tha
     CHECK(contains(talk, "L24 P3 A7.00"));
 }
 
+/// The words of a shell's line, some in double quotes.
+std::vector<std::string> shell_words(const std::string& line) {
+    std::vector<std::string> words(1);
+    bool quoted = false;
+    for (const char c : line) {
+        if (c == '"') {
+            quoted = !quoted;
+        } else if (c == ' ' && !quoted) {
+            words.emplace_back();
+        } else {
+            words.back() += c;
+        }
+    }
+    return words;
+}
+
+TEST_CASE("the buttons that the help's examples press are there, and do what they should") {
+    const Board board("geeetech-a30t");
+    const std::string help = run({"screen", "--help"}).out;
+    const std::string start = "fauxboard screen --port /tmp/screen press ";
+    int pressed = 0;
+    for (std::size_t at = help.find(start); at != std::string::npos; at = help.find(start, at + 1)) {
+        const std::string line = help.substr(at + start.size(), help.find('\n', at) - at - start.size());
+        std::vector<std::string> call{"screen", "--port", board.path, "--speed", fast, "press"};
+        const std::string buttons = line.substr(0, line.find("   "));  // what is behind says what it shows
+        const std::vector<std::string> words = shell_words(buttons);
+        call.insert(call.end(), words.begin(), words.end());
+        const Result press = run(call);
+        CAPTURE(buttons);
+        INFO(press.out);
+        CHECK(press.errors == "");
+        CHECK(press.code == 0);
+        ++pressed;
+    }
+    CHECK(pressed == 3);
+}
+
 TEST_CASE("press sends what the button sends, prints what comes back, and judges it") {
     const TemporaryFolder folder;
     const Board board("geeetech-a30t");

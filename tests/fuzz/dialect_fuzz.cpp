@@ -45,15 +45,11 @@ std::shared_ptr<const behaviour::Profile> profile() {
 /// Counts the commands that were taken.
 class Counter final : public board::Observer {
   public:
-    explicit Counter(const behaviour::Profile& profile) {
-        const machine::HostConfig& host = profile.machine->host;
-        rules_ = {host.line_chars, host.drops_repeated, host.judges_unnumbered, host.first_star_ends};
-    }
+    explicit Counter(const behaviour::Profile& profile) : most_chars_(profile.machine->host.line_chars) {}
     void on_received(SimTime, Channel channel, std::string_view line, board::Verdict verdict) override {
         std::array<char, 512> room;
-        const protocol::HostLine framed =
-            protocol::unframe_host_line(protocol::read_host_line(line, room, rules_.most_chars), rules_);
-        const bool blank = framed.body.empty() && !framed.numbered;
+        const bool blank = protocol::read_host_line(line, room, most_chars_).find_first_not_of(' ') ==
+                           std::string_view::npos;
         taken_[static_cast<std::size_t>(channel)] += verdict == board::Verdict::accepted && !blank ? 1 : 0;
     }
     void on_sent(SimTime, Channel channel, std::string_view line) override {
@@ -65,7 +61,7 @@ class Counter final : public board::Observer {
     std::uint64_t oks(std::size_t line) const { return oks_[line]; }
 
   private:
-    protocol::HostLineRules rules_;
+    std::size_t most_chars_;
     std::array<std::uint64_t, behaviour::channel_count> taken_{};
     std::array<std::uint64_t, behaviour::channel_count> oks_{};
 };

@@ -2,6 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <termios.h>
+
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -57,6 +60,28 @@ TEST_CASE("pty: bytes pass unchanged both ways") {
     CHECK(pty.link->stats().bytes_in == 256);
     CHECK(pty.link->stats().bytes_out == 256);
     CHECK(pty.link->stats().bytes_lost == 0);
+}
+
+TEST_CASE("pty: a peer at another speed than the board's is told of, once, and heard all the same") {
+    for (const auto& [speed, told] : {std::pair{B9600, true}, std::pair{B115200, false}}) {
+        EventLoop loop;
+        Recorder heard;
+        const auto link = make_pty_link(loop, "", PtyUse{115200, true});
+        link->open(heard);
+        const UniqueFd peer = open_terminal(link->path());
+        termios settings{};
+        REQUIRE(::tcgetattr(peer.get(), &settings) == 0);
+        REQUIRE(::cfsetspeed(&settings, static_cast<speed_t>(speed)) == 0);
+        REQUIRE(::tcsetattr(peer.get(), TCSANOW, &settings) == 0);
+        say(peer.get(), "one");
+        REQUIRE(run_until(loop, [&] { return heard.bytes == "one"; }));
+        say(peer.get(), "two");
+        REQUIRE(run_until(loop, [&] { return heard.bytes == "onetwo"; }));
+        const auto notes = std::count_if(heard.states.begin(), heard.states.end(), [](const auto& state) {
+            return state.second.find("was opened at 9600 baud, the board has 115200") != std::string::npos;
+        });
+        CHECK(notes == (told ? 1 : 0));
+    }
 }
 
 TEST_CASE("pty: messages written together arrive in order") {

@@ -106,11 +106,16 @@ TEST_CASE("a tour against a board that is off ends, and says so of every button"
     CHECK(tour.done());
     CHECK(tour.results().size() == tour.total());
     CHECK(!tour.passed());
+    int on_the_way = 0;
     for (const screen::TourResult& result : tour.results()) {
         CHECK(!result.sentence.empty());
+        // What was pressed in vain on the way there has a name as well.
+        on_the_way += result.sentence.find("; before it: ") == std::string::npos ? 0 : 1;
+        CHECK(result.sentence.find("; before it: :") == std::string::npos);
         const bool quiet = result.expected == std::vector<std::string>{"silence"};
         CHECK_MESSAGE((result.verdict == screen::TourVerdict::met) == quiet, result.sentence);
     }
+    CHECK(on_the_way > 0);
 }
 
 TEST_CASE("a status that was on its way when a button was pressed hides no button from the tour") {

@@ -27,8 +27,9 @@ void live(const std::string& name) {
     CHECK_MESSAGE(soaked.broken.empty(), soaked.broken);
 }
 
-TEST_CASE("a short life of the resin boards keeps all promises") {
-    for (const char* name : {"elegoo-mars-pro", "elegoo-saturn", "anycubic-photon", "chitu-4.4.3"}) {
+TEST_CASE("a short life of the resin boards and of a Marlin board keeps all promises") {
+    for (const char* name :
+         {"elegoo-mars-pro", "elegoo-saturn", "anycubic-photon", "chitu-4.4.3", "marlin"}) {
         live(name);
     }
 }
