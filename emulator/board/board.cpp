@@ -77,6 +77,9 @@ void Board::notice(Level level, std::string_view text) {
 
 void Board::power_on(SimTime now) {
     time_ = power_on_ = now;
+    if (options_.observer != nullptr) {
+        options_.observer->on_power_on(now);
+    }
     last_tick_ = now - profile_->tick;
     inbox_.clear();
     outbox_.clear();
