@@ -5,8 +5,12 @@
 namespace fauxboard::board {
 
 bool MessageQueue::push(std::string_view message) {
-    if (count_ == spans_.size()) {
+    if (count_ == most_messages_) {
         return false;
+    }
+    if (spans_.empty()) {
+        bytes_.resize(most_bytes_);
+        spans_.resize(most_messages_);
     }
     // A message lies in one piece, so that front() is a view: behind the newest one, or, when that leaves no
     // room before the end, at the start.

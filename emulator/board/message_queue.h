@@ -7,11 +7,12 @@
 
 namespace fauxboard::board {
 
-/// Messages in the order they came, in a fixed piece of memory: allocates once, then never. Full means
-/// refused, as in the small memory of a real board.
+/// Messages in the order they came, in a fixed piece of memory: allocates once, with the first of them, then
+/// never; a line that nobody speaks on weighs nothing. Full means refused, as in the small memory of a real
+/// board.
 class MessageQueue {
   public:
-    MessageQueue(std::size_t bytes, std::size_t messages) : bytes_(bytes), spans_(messages) {}
+    MessageQueue(std::size_t bytes, std::size_t messages) : most_bytes_(bytes), most_messages_(messages) {}
 
     bool empty() const { return count_ == 0; }
     std::size_t size() const { return count_; }
@@ -30,6 +31,8 @@ class MessageQueue {
         std::size_t from = 0;
         std::size_t size = 0;
     };
+    std::size_t most_bytes_;
+    std::size_t most_messages_;
     std::vector<char> bytes_;
     std::vector<Span> spans_;
     std::size_t head_ = 0;
