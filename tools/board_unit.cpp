@@ -87,7 +87,7 @@ void BoardUnit::set_up() {
         host_wire_ = make_host_link();
         host_link_.emplace(*host_wire_, *clock_, fault::Direction::to_board);
     }
-    faults_.emplace(*link_, host_link_ ? &*host_link_ : nullptr);
+    faults_.emplace(*link_, host_link_ ? &*host_link_ : nullptr, has_main_line());
     add_faults();
     live_.emplace(*board_, *link_, *clock_, &observers_);
     if (screen_) {
@@ -281,7 +281,9 @@ std::string BoardUnit::summary() const {
         board_->lines_too_long(), c.unknown_codes, c.unmatched, c.requests_lost, c.messages_lost, c.lines_cut,
         l.bytes_in, l.bytes_out, l.bytes_lost);
     for (const fault::FaultStatus& status : faults_->list()) {
-        out += host::fault_sentence(status) + "\n";
+        out += host::fault_sentence(status);
+        const bool elsewhere = status.seen == 0 && !status.spec.line && host_link_;
+        out += elsewhere ? " It was for the main line; line=usb is the USB side.\n" : "\n";
     }
     for (const machine::Fault& broken : board_->machine().faults.list()) {
         out += fault::printer_fault_sentence(broken) + "\n";

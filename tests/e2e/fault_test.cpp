@@ -259,6 +259,19 @@ TEST_CASE("a disconnection takes the pty away and brings it back under its name;
     CHECK_FALSE(std::filesystem::exists(std::filesystem::symlink_status(name)));
 }
 
+TEST_CASE("a board with the USB side alone has faults there, and one with both says where one was") {
+    Program alone({"run", "-q", "--profile", "marlin", "--host-pty", "--fault", "garble:to_board,every=2"});
+    Peer host(alone.ready()["host"]["path"]);
+    host.say("N0 M110 N0*125\nN1 M105*38\n");
+    CHECK(contains(host.lines().find("Resend:"), "Resend: 1"));
+    CHECK(alone.stop() == 0);
+
+    Program both({"run", "-q", "--host-pty", "--fault", "garble:to_board,every=2"});
+    both.ready();
+    CHECK(both.stop() == 0);
+    CHECK(contains(both.errors(), "never acted. It was for the main line; line=usb is the USB side.\n"));
+}
+
 TEST_CASE("the USB side has faults of its own, and the main line none of them") {
     const TemporaryFolder folder;
     Program program({"run", "--no-pacing", "-q", "--host-pty", "--control=" + folder.file("ctl"), "--fault",
