@@ -12,6 +12,7 @@
 #include "emulator/host/screen_files.h"
 #include "emulator/world/invariants.h"
 #include "emulator/world/play.h"
+#include "tools/option_values.h"
 #include "tools/report.h"
 
 namespace fauxboard::tools {
@@ -26,6 +27,7 @@ struct SoakOptions {
     std::uint64_t seed = 1;
     std::uint64_t steps = 60;
     std::vector<std::uint64_t> only;
+    bool lines = false;
     bool json = false;
     bool promises = false;
 };
@@ -42,8 +44,31 @@ double years(machine::SimTime time) {
     return machine::to_seconds(time) / seconds_a_year;
 }
 
+/// Writes down all that is heard and said in one life.
+class Minutes final : public board::Observer {
+  public:
+    void on_received(board::SimTime now, board::Channel channel, std::string_view line,
+                     board::Verdict verdict) override {
+        const bool taken = verdict == board::Verdict::accepted;
+        write(now, board::other_end(channel), taken ? ">" : "x", line);
+    }
+    void on_sent(board::SimTime now, board::Channel channel, std::string_view line) override {
+        write(now, board::other_end(channel), "<", line);
+    }
+    void on_notice(board::SimTime now, board::Level, std::string_view text) override {
+        write(now, "", "!", text);
+    }
+
+  private:
+    static void write(board::SimTime now, std::string_view who, std::string_view way, std::string_view text) {
+        print(fmt::format("{:>14.6f}  {:>7} {} {}\n", machine::to_seconds(now), who, way, text));
+    }
+};
+
 ExitCode replay_one(const world::Cast& cast, const SoakOptions& options) {
-    const world::Outcome outcome = world::play(cast, options.seed, options.only);
+    Minutes minutes;
+    const world::Outcome outcome =
+        world::play(cast, options.seed, options.only, options.lines ? &minutes : nullptr);
     print(outcome.held() ? "All promises held.\n" : world::report(cast, options.seed, options.only) + "\n");
     return outcome.held() ? ExitCode::ok : ExitCode::failed;
 }
@@ -104,8 +129,7 @@ void add_soak(CLI::App& app, ExitCode& exit) {
     command->add_option("--years", options->years, "Of virtual time, at least")
         ->check(CLI::Range(0.0, 1e6))
         ->capture_default_str();
-    command->add_option("--seed", options->seed, "Of the first world; the next has the next")
-        ->capture_default_str();
+    add_seed(*command, options->seed, "Of the first world; the next has the next");
     command->add_option("--steps", options->steps, "Things that happen in one world")
         ->check(CLI::Range(1, 1'000'000))
         ->capture_default_str();
@@ -113,6 +137,8 @@ void add_soak(CLI::App& app, ExitCode& exit) {
         ->add_option("--only", options->only,
                      "Play these steps of the one seed alone, as a report names them")
         ->delimiter(',');
+    command->add_flag("--lines", options->lines, "With --only: all that is heard and said")
+        ->needs(command->get_option("--only"));
     command->add_flag("--json", options->json, "The result as a JSON object");
     CLI::Option* promises =
         command->add_flag("--promises", options->promises, "List what is promised, and end");

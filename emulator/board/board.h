@@ -57,6 +57,9 @@ class Observer {
     virtual void on_sent(SimTime now, Channel channel, std::string_view line) = 0;
     /// Something a person wants to know: a clamped value, an unknown code, a lost message.
     virtual void on_notice(SimTime now, Level level, std::string_view text) = 0;
+    /// The board's program begins anew, by power, by reset or by itself: what waited is lost, what was begun
+    /// is over without a word.
+    virtual void on_power_on(SimTime /*now*/) {}
     /// Something happened to the machine (see machine::events()); told before the profile's rules for it are
     /// carried out.
     virtual void on_event(SimTime /*now*/, machine::EventId /*event*/) {}
@@ -67,8 +70,6 @@ class Observer {
     /// Something is done to the machine by world() or act(), in the words of behaviour::action_words(); told
     /// before it is done.
     virtual void on_world(SimTime /*now*/, std::string_view /*words*/) {}
-    /// The board starts anew by itself; what waited in it is lost.
-    virtual void on_restart(SimTime /*now*/) {}
 };
 
 struct Options {
@@ -235,6 +236,7 @@ class Board final : private behaviour::NoticeSink, private machine::FileCommands
         std::size_t size = 0;
         unsigned lines = 0;
     };
+    std::span<char> scratch();
     void compose(const behaviour::Frame& frame, const behaviour::Scope& scope, Draft& draft);
     void compose_line(const behaviour::Frame& frame, const behaviour::FrameTemplate& text,
                       const behaviour::Scope& scope, std::size_t end, Draft& draft);
@@ -269,6 +271,7 @@ class Board final : private behaviour::NoticeSink, private machine::FileCommands
     struct Held {
         const behaviour::Rule* rule = nullptr;
         std::string body;
+        bool waits = false;  ///< for something else than moves
     };
     Held held_;
     std::optional<Channel>
@@ -278,7 +281,7 @@ class Board final : private behaviour::NoticeSink, private machine::FileCommands
     bool muted_ = false;      ///< a file's command: nobody hears what is for whoever asked
     bool answered_ = false;   ///< what is being carried out has been acknowledged by its answer
     const behaviour::Rule* after_ = nullptr;  ///< of the command that runs: what is said when it is over
-    std::vector<char> scratch_;
+    std::unique_ptr<char[]> scratch_;
     std::vector<double> variables_;
     Counters counters_;
     SimTime time_{0};

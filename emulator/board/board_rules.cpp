@@ -107,6 +107,7 @@ bool Board::run_rules(const std::vector<Rule>& rules, const protocol::Command* c
 
 void Board::run_rule(const Rule& rule, const Scope& here) {
     ActionContext context{*machine_, variables_, *this};
+    const bool waited = machine_->waiting();
     for (const behaviour::ActionCall& call : rule.actions) {
         behaviour::run_action(call, here, profile_->variables, context);
     }
@@ -116,9 +117,12 @@ void Board::run_rule(const Rule& rule, const Scope& here) {
         power_on(time_);
         return;
     }
-    if (rule.until_done && here.command != nullptr && machine_->at_work()) {
+    // What waits is the main line; a datagram is answered as it comes, and no request is forgotten over it.
+    const bool holds = rule.until_done && asker_ != Channel::network;
+    const bool waits = !waited && machine_->waiting();  // of its own; another's wait is none of its business
+    if (holds && here.command != nullptr && (waits || machine_->moving())) {
         const std::string_view code = here.command->word;
-        held_ = {&rule, std::string(code) + std::string(here.command->text)};
+        held_ = {&rule, std::string(code) + std::string(here.command->text), waits};
         return;
     }
     for (const Send& entry : rule.send) {
@@ -131,7 +135,7 @@ void Board::run_rule(const Rule& rule, const Scope& here) {
 
 /// The request that held up all others may be over: what its rule sends goes now.
 void Board::end_held() {
-    if (held_.rule == nullptr || machine_->at_work()) {
+    if (held_.rule == nullptr || machine_->moving() || (held_.waits && machine_->waiting())) {
         return;
     }
     const Held over = std::exchange(held_, {});
@@ -156,9 +160,6 @@ void Board::settle(std::optional<Channel> asker) {
     asker_.reset();
     machine_->die_if_told();
     if (machine_->take_reset()) {
-        if (options_.observer != nullptr) {
-            options_.observer->on_restart(time_);
-        }
         power_on(time_);
         return;
     }

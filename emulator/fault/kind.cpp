@@ -49,9 +49,16 @@ constexpr std::array<CommonAttribute, 11> common{{
     {{"direction", AttributeType::choice, 2, 0, 2, "which way the spoiled bytes go", directions},
      [](const FaultSpec& s) -> std::optional<double> { return static_cast<double>(s.direction); },
      [](FaultSpec& s, double v) { s.direction = static_cast<Direction>(v); }},
-    {{"line", AttributeType::choice, 0, 0, 1, "which line of the board; to_screen is away from it on both",
+    {{"line",
+      AttributeType::choice,
+      {},
+      0,
+      1,
+      "which line of the board (unsaid: main, or the only one); to_screen is away from it on both",
       lines},
-     [](const FaultSpec& s) -> std::optional<double> { return static_cast<double>(s.line); },
+     [](const FaultSpec& s) -> std::optional<double> {
+         return s.line ? std::optional(static_cast<double>(*s.line)) : std::nullopt;
+     },
      [](FaultSpec& s, double v) { s.line = static_cast<Line>(v); }},
     {{"probability", AttributeType::number, 1, 0, 1, "the chance of each line"},
      get_of<&Trigger::probability>,

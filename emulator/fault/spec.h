@@ -22,8 +22,8 @@ struct Kind;
 /// Which way the bytes go that a fault spoils.
 enum class Direction : std::uint8_t { to_screen, to_board, both };
 
-/// Which of a board's lines: the one with the screen, or, on boards that have only that, with the host; or the
-/// USB side beside it.
+/// Which of a board's lines: the one with the screen, or, on boards that have only that, with the host; or
+/// the USB side beside it.
 enum class Line : std::uint8_t { main, usb };
 
 /// The values of a kind's own attributes, in the order of its table: times in microseconds, rates in bytes
@@ -61,7 +61,7 @@ struct Trigger {
 struct FaultSpec {
     const Kind* kind = nullptr;
     Direction direction = Direction::both;
-    Line line = Line::main;
+    std::optional<Line> line;  ///< unsaid: the board's main line, or the only one that it has
     Trigger trigger;
     std::uint64_t seed = 1;  ///< 0 .. 2^32 - 1
     Values values;

@@ -43,7 +43,8 @@ class Printer final : public machine::Machine {
     void set_filament(bool present);
     void seek_job(double byte) override;
     bool resume_job() override;
-    bool at_work() const override { return motion.busy() || wait.active(); }
+    bool moving() const override { return motion.busy(); }
+    bool waiting() const override { return wait.active(); }
     /// The job, whatever its state, has come to its end; the profile sees to heaters and motions.
     void end_job();
     /// The fan of the control board, percent; what M106 P2 sets holds until it changes by itself.

@@ -6,8 +6,22 @@
 
 namespace fauxboard::host {
 
+/// The fault with the line that it is for where nobody said so and there is one alone.
+fault::FaultSpec LineFaults::placed(fault::FaultSpec spec) const {
+    if (!spec.line && !has_main_ && usb_ != nullptr) {
+        spec.line = fault::Line::usb;
+    }
+    return spec;
+}
+
 fault::FaultControl& LineFaults::line_of(const fault::FaultSpec& spec) {
-    if (spec.line == fault::Line::main) {
+    if (spec.line.value_or(fault::Line::main) == fault::Line::main) {
+        if (!has_main_ && usb_ != nullptr) {
+            throw fault::FaultSpecError({fmt::format(
+                "fault \"{}\": line: there is no main line here; expected \"usb\", or `run` with --pty, "
+                "--port or --tcp",
+                fault::fault_to_text(spec))});
+        }
         return main_;
     }
     if (usb_ == nullptr) {
@@ -23,13 +37,15 @@ std::vector<LineFaults::Entry>::iterator LineFaults::find(fault::FaultId id) {
     return std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) { return entry.id == id; });
 }
 
-fault::FaultId LineFaults::add(const fault::FaultSpec& spec) {
+fault::FaultId LineFaults::add(const fault::FaultSpec& asked) {
+    const fault::FaultSpec spec = placed(asked);
     fault::FaultControl& line = line_of(spec);
     entries_.push_back({last_id_ + 1, &line, line.add(spec)});
     return ++last_id_;
 }
 
-bool LineFaults::change(fault::FaultId id, const fault::FaultSpec& spec) {
+bool LineFaults::change(fault::FaultId id, const fault::FaultSpec& asked) {
+    const fault::FaultSpec spec = placed(asked);
     const auto entry = find(id);
     if (entry == entries_.end()) {
         return false;
@@ -77,6 +93,13 @@ std::vector<fault::FaultStatus> LineFaults::list() const {
         }
     }
     return out;
+}
+
+fault::FaultId LineFaults::known_as(const fault::FaultControl& line, fault::FaultId id_there) const {
+    const auto entry = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& each) {
+        return each.line == &line && each.id_there == id_there;
+    });
+    return entry == entries_.end() ? id_there : entry->id;  // one that is being added acts at once
 }
 
 }  // namespace fauxboard::host

@@ -48,8 +48,10 @@ class Machine : public JobControl {
     SimTime next_event() const;
     /// Whether anything the board shows may change by the mere passing of time.
     bool restless() const;
-    /// Whether moves or waits that somebody asked for are still to be done.
-    virtual bool at_work() const { return false; }
+    /// Whether moves that somebody asked for are still to be done.
+    virtual bool moving() const { return false; }
+    /// Whether something is waited for because somebody asked for that.
+    virtual bool waiting() const { return false; }
     SimTime now() const { return now_; }
 
     // Disks: 0 the SD card (or the stick of a board that has one slot), 1 the U-disk.

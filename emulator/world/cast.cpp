@@ -20,10 +20,28 @@ constexpr std::uint32_t highest_code = 9999;
 constexpr SimTime settling{30'000'000};  ///< boot, and whatever comes by itself at first
 constexpr SimTime patience{2'000'000};
 
+struct Harmless {
+    std::string_view request;
+    /// By what its answers begin where they depend on the state of the machine: a job, a card.
+    std::array<std::string_view, 4> states{};
+};
+
 /// Requests that change nothing and that boards answer. The first one that a line answers is its probe.
-constexpr std::array<std::string_view, 14> harmless{"M105",  "M4002", "M115", "M4000", "M27",
-                                                    "M114",  "M2133", "M119", "M31",   "M20",
-                                                    "M4001", "M4006", "M503", "M220"};
+constexpr std::array<Harmless, 14> harmless{
+    {{"M105"},
+     {"M4002"},
+     {"M115"},
+     {"M4000"},
+     {"M27", {"SD printing byte ", "Not SD printing"}},
+     {"M114"},
+     {"M2133"},
+     {"M119"},
+     {"M31"},
+     {"M20", {"Begin file list", "begin file list", "No media", "SD: fail"}},
+     {"M4001"},
+     {"M4006"},
+     {"M503"},
+     {"M220"}}};
 
 /// What hosts send that no profile need know: the machine carries it out as in a file.
 constexpr auto usual = std::to_array<std::string_view>(
@@ -119,15 +137,23 @@ Cast make_cast(std::shared_ptr<const behaviour::Profile> profile,
 std::vector<Probe> probes_of(const std::shared_ptr<const behaviour::Profile>& profile, Channel channel) {
     std::vector<Probe> probes;
     const std::vector<std::string> by_itself = said(profile, channel, {});
-    for (const std::string_view request : harmless) {
-        for (const std::string& line : said(profile, channel, request)) {
+    for (const Harmless& each : harmless) {
+        for (const std::string& line : said(profile, channel, each.request)) {
             if (std::find(by_itself.begin(), by_itself.end(), line) == by_itself.end() && !line.empty()) {
-                probes.push_back({std::string(request), head_of(line)});
+                Probe probe{std::string(each.request), head_of(line), {}};
+                std::copy_if(each.states.begin(), each.states.end(), std::back_inserter(probe.or_else),
+                             [](std::string_view begin) { return !begin.empty(); });
+                probes.push_back(std::move(probe));
                 break;
             }
         }
     }
     return probes;
+}
+
+bool Probe::answered_by(std::string_view heard) const {
+    const auto holds = [heard](std::string_view part) { return heard.find(part) != std::string_view::npos; };
+    return holds(answer) || std::any_of(or_else.begin(), or_else.end(), holds);
 }
 
 std::string small_print(unsigned layers) {

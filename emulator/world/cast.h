@@ -15,7 +15,9 @@ namespace fauxboard::world {
 /// A request that a line answers, and how the answer is known.
 struct Probe {
     std::string request;
-    std::string answer;  ///< a part of it
+    std::string answer;                     ///< a part of it
+    std::vector<std::string_view> or_else;  ///< of the answer in another state of the machine
+    bool answered_by(std::string_view heard) const;
 };
 
 /// Who plays in a world: the board's profile and what goes with it. Shared by all worlds of a profile.

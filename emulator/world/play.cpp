@@ -21,10 +21,11 @@ std::string_view promise_of(std::string_view broken) {
 
 }  // namespace
 
-Outcome play(const Cast& cast, std::uint64_t seed, const std::vector<std::uint64_t>& steps) {
+Outcome play(const Cast& cast, std::uint64_t seed, const std::vector<std::uint64_t>& steps,
+             board::Observer* listener) {
     Outcome outcome;
     try {
-        World world(cast, seed);
+        World world(cast, seed, listener);
         try {
             for (const std::uint64_t number : steps) {
                 world.step(number);

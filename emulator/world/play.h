@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "emulator/board/board.h"
 #include "emulator/machine/sim_time.h"
 #include "emulator/world/cast.h"
 
@@ -19,8 +20,10 @@ struct Outcome {
     bool held() const { return broken.empty(); }
 };
 
-/// Plays the steps of these numbers, and peace at the end. Any exception is a broken promise.
-Outcome play(const Cast& cast, std::uint64_t seed, const std::vector<std::uint64_t>& steps);
+/// Plays the steps of these numbers, and peace at the end. Any exception is a broken promise. `listener` is
+/// told all that a recorder would be.
+Outcome play(const Cast& cast, std::uint64_t seed, const std::vector<std::uint64_t>& steps,
+             board::Observer* listener = nullptr);
 
 /// The numbers 0 to `count` - 1: a whole world.
 std::vector<std::uint64_t> whole(std::uint64_t count);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "emulator/behaviour/action_words.h"
@@ -10,6 +11,7 @@
 #include "emulator/machine/host_side.h"
 #include "emulator/world/steps.h"
 #include "protocol/framing.h"
+#include "protocol/host_line.h"
 
 namespace fauxboard::world {
 namespace {
@@ -36,7 +38,8 @@ unsigned checksum(std::string_view text) {
 
 }  // namespace
 
-World::World(const Cast& cast, std::uint64_t seed) : cast_(cast), seed_(seed) {
+World::World(const Cast& cast, std::uint64_t seed, board::Observer* listener)
+    : cast_(cast), seed_(seed), listener_(listener) {
     for (const auto& [path, content] : cast.files) {
         disk_.put(path, content);
     }
@@ -61,7 +64,6 @@ void World::make_board() {
     board_->connect(Channel::host, true);
     ledger_.lines_heard = ledger_.lines_said = 0;
     ledger_.before = now_;
-    forget_commands();
     board_->power_on(now_);
     take_output();
 }
@@ -69,18 +71,26 @@ void World::make_board() {
 // What the board is told of.
 // -----------------------------------------------------------------------------------------------
 
-void World::on_received(SimTime, Channel channel, std::string_view line, board::Verdict verdict) {
+void World::on_received(SimTime now, Channel channel, std::string_view line, board::Verdict verdict) {
+    if (listener_ != nullptr) {
+        listener_->on_received(now, channel, line, verdict);
+    }
     ++ledger_.lines_heard;
     ++requests_;
     note(line);
-    const bool blank = line.find_first_not_of(" \t\r") == std::string_view::npos;
+    std::array<char, protocol::max_line_bytes> room;
+    const std::string_view kept = protocol::read_host_line(line, room, protocol::max_line_bytes);
+    const bool blank = kept.find_first_not_of(" \t\r") == std::string_view::npos;
     const bool answers = cast_.probes[static_cast<std::size_t>(Channel::host)].has_value();
     if (channel == Channel::host && answers && verdict == board::Verdict::accepted && !blank) {
         ++ledger_.commands_taken;
     }
 }
 
-void World::on_sent(SimTime, Channel channel, std::string_view line) {
+void World::on_sent(SimTime now, Channel channel, std::string_view line) {
+    if (listener_ != nullptr) {
+        listener_->on_sent(now, channel, line);
+    }
     ++ledger_.lines_said;
     if (channel != Channel::host || !cast_.probes[static_cast<std::size_t>(Channel::host)]) {
         return;
@@ -92,8 +102,22 @@ void World::on_sent(SimTime, Channel channel, std::string_view line) {
     }
 }
 
-void World::on_notice(SimTime, board::Level, std::string_view text) {
+void World::on_notice(SimTime now, board::Level level, std::string_view text) {
+    if (listener_ != nullptr) {
+        listener_->on_notice(now, level, text);
+    }
     note(text);
+}
+
+/// Also when a command or a rule restarts it.
+void World::on_power_on(SimTime now) {
+    if (listener_ != nullptr) {
+        listener_->on_notice(now, board::Level::info, "the board is switched on");
+    }
+    ledger_.commands_taken = ledger_.commands_acknowledged = 0;
+    ledger_.ok_of_resend = false;
+    line_number_ = 0;
+    new_job();
 }
 
 void World::on_event(SimTime, machine::EventId event) {
@@ -101,18 +125,6 @@ void World::on_event(SimTime, machine::EventId event) {
         event->name == "file.selected") {
         new_job();
     }
-}
-
-void World::on_restart(SimTime) {
-    forget_commands();
-}
-
-/// The board starts anew: what it was told before will not be acknowledged.
-void World::forget_commands() {
-    new_job();
-    ledger_.commands_taken = ledger_.commands_acknowledged = 0;
-    ledger_.ok_of_resend = false;
-    line_number_ = 0;
 }
 
 /// Where the job under way is executed: a place at which it may be taken up again.
@@ -277,7 +289,6 @@ void World::touch(fault::Dice& dice) {
 // -----------------------------------------------------------------------------------------------
 
 void World::reset() {
-    forget_commands();
     board_->power_on(now_);
     take_output();
 }
@@ -340,7 +351,7 @@ void World::ask(Channel channel) {
             break;
     }
     pass(patience);
-    if (heard_.find(probe->answer) == std::string::npos) {
+    if (!probe->answered_by(heard_)) {
         ledger_.unanswered.push_back(fmt::format("{} on the {} line was not answered by \"{}\"",
                                                  probe->request, board::other_end(channel), probe->answer));
     }

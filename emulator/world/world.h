@@ -32,7 +32,8 @@ struct Broken : std::runtime_error {
 /// changes nothing of it. Every call may throw Broken.
 class World final : private board::Observer {
   public:
-    World(const Cast& cast, std::uint64_t seed);
+    /// `listener`, which may be null, is told what is heard and said as well.
+    World(const Cast& cast, std::uint64_t seed, board::Observer* listener = nullptr);
     ~World() override;
 
     /// Lets some time pass, and does the thing of that number.
@@ -65,7 +66,6 @@ class World final : private board::Observer {
         ledger_.whole[path].insert(std::move(content));
     }
     void new_job() { ++ledger_.job_number; }
-    void forget_commands();
 
     const Cast& cast() const { return cast_; }
     board::Board& board() { return *board_; }
@@ -78,8 +78,8 @@ class World final : private board::Observer {
                      board::Verdict verdict) override;
     void on_sent(SimTime now, board::Channel channel, std::string_view line) override;
     void on_notice(SimTime now, board::Level level, std::string_view text) override;
+    void on_power_on(SimTime now) override;
     void on_event(SimTime now, machine::EventId event) override;
-    void on_restart(SimTime now) override;
 
     void make_board();
     void run_to(SimTime time);
@@ -93,6 +93,7 @@ class World final : private board::Observer {
 
     const Cast& cast_;
     std::uint64_t seed_;
+    board::Observer* listener_;
     Disk disk_;
     Eeprom eeprom_;
     JobPlace job_place_;

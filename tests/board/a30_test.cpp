@@ -178,6 +178,27 @@ TEST_CASE("A30: a command works until it is done, and nothing leaves meanwhile")
     CHECK(holds(a30.after("M2107 S0", 120), "M2107 Z:0.00\n"));
 }
 
+TEST_CASE("A30: M114 waits for moves, whoever asked for them, and not for heat") {
+    A30 a30;
+    BoardDriver& driver = *a30.driver;
+    driver.host("M109 S100");
+    driver.run_for(10);
+    CHECK(holds(a30.after("M114", 0.3), "L1 "));
+    driver.run_for(300);
+    driver.host("G28");
+    driver.run_for(1);
+    CHECK(a30.after("M114", 5) == "");
+    // What comes by the network meanwhile is answered there, and takes nothing from it.
+    std::string answer;
+    driver.board().receive_datagram(machine::from_seconds(driver.now()), 1, "M114");
+    driver.board().take_datagrams([&](std::uint64_t, std::string_view bytes) { answer += bytes; });
+    CHECK(holds(answer, "L1 "));
+    const double from = driver.now();
+    driver.run_for(60);
+    CHECK(driver.matching("L1 ", from).size() >= 1);
+    CHECK(holds(a30.after("M105", 0.3), "L2 "));
+}
+
 TEST_CASE(
     "A30: the list is of the 32 newest files, without folders, names over 43 characters by their 8.3 name") {
     DatedDisk disk;

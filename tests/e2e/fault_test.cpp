@@ -89,7 +89,7 @@ std::vector<int> answered(const std::string& fault) {
     return out;
 }
 
-TEST_CASE("a wrong fault is a sentence, with exit code 3, for run and for tap") {
+TEST_CASE("a wrong fault is a sentence, with exit code 2, for run and for tap") {
     const std::pair<const char*, const char*> wrong[] = {
         {"dorp:every=2", "did you mean \"drop\"?"},
         {"", "found no kind; expected one of drop, garble"},
@@ -109,7 +109,7 @@ TEST_CASE("a wrong fault is a sentence, with exit code 3, for run and for tap") 
             CAPTURE(text);
             const Result result = run(args);
             CAPTURE(result.errors);
-            CHECK(result.code == 3);
+            CHECK(result.code == 2);
             CHECK(contains(result.errors, sentence));
             CHECK(result.out.empty());
         }
@@ -257,6 +257,19 @@ TEST_CASE("a disconnection takes the pty away and brings it back under its name;
     CHECK(program.stop() == 0);
     CHECK(contains(program.errors(), ", acted once on 2 lines."));
     CHECK_FALSE(std::filesystem::exists(std::filesystem::symlink_status(name)));
+}
+
+TEST_CASE("a board with the USB side alone has faults there, and one with both says where one was") {
+    Program alone({"run", "-q", "--profile", "marlin", "--host-pty", "--fault", "garble:to_board,every=2"});
+    Peer host(alone.ready()["host"]["path"]);
+    host.say("N0 M110 N0*125\nN1 M105*38\n");
+    CHECK(contains(host.lines().find("Resend:"), "Resend: 1"));
+    CHECK(alone.stop() == 0);
+
+    Program both({"run", "-q", "--host-pty", "--fault", "garble:to_board,every=2"});
+    both.ready();
+    CHECK(both.stop() == 0);
+    CHECK(contains(both.errors(), "never acted. It was for the main line; line=usb is the USB side.\n"));
 }
 
 TEST_CASE("the USB side has faults of its own, and the main line none of them") {

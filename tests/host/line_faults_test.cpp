@@ -40,6 +40,20 @@ TEST_CASE("faults of two lines under one numbering, each on the line that it nam
     CHECK(usb.list().empty());
 }
 
+TEST_CASE("on a board with the USB side alone a fault that names no line is for that") {
+    testing::LooseFaults main;
+    testing::LooseFaults usb;
+    LineFaults all(main, &usb, false);
+    all.add(fault_from_text("drop:every=2"));
+    CHECK(main.list().empty());
+    REQUIRE(usb.list().size() == 1);
+    CHECK(fault_to_text(all.list()[0].spec) == "drop:line=usb,every=2");
+    CHECK(all.change(1, fault_from_text("drop:every=3")));
+    CHECK(fault_to_text(all.list()[0].spec) == "drop:line=usb,every=3");
+    CHECK_THROWS_WITH_AS(all.add(fault_from_text("drop:line=main")), doctest::Contains("no main line here"),
+                         fault::FaultSpecError);
+}
+
 TEST_CASE("a fault for a line that is not there is refused, and nothing is changed") {
     testing::LooseFaults main;
     LineFaults all(main, nullptr);

@@ -75,7 +75,7 @@ class Life {
         std::ofstream(folder_.file("sd/part.gco")) << "M104 S60\nG28\nG1 X10\nG1 X20\n";
         std::ofstream(folder_.file("play.json")) << R"({
   "name": "play", "profile": "geeetech-a30t",
-  "steps": [ { "do": "eeprom.save" }, { "advance": "2s" }, { "request": "M105" }, { "advance": "3s" } ]
+  "steps": [ { "do": "eeprom.save" }, { "wait": "2s" }, { "request": "M105" }, { "wait": "3s" } ]
 })";
     }
 

@@ -11,7 +11,8 @@
 namespace fauxboard::world {
 namespace {
 
-constexpr std::uint64_t seeds = 12;
+/// So that a program without optimisation is done in a minute; `fauxboard soak` plays as many as are wanted.
+constexpr std::uint64_t seeds = 6;
 constexpr std::uint64_t steps = 50;
 
 Cast cast_of(const std::string& name) {
@@ -27,15 +28,7 @@ void live(const std::string& name) {
     CHECK_MESSAGE(soaked.broken.empty(), soaked.broken);
 }
 
-TEST_CASE("a short life of the resin boards and of a Marlin board keeps all promises") {
-    for (const char* name :
-         {"elegoo-mars-pro", "elegoo-saturn", "anycubic-photon", "chitu-4.4.3", "marlin"}) {
-        live(name);
-    }
-}
-
-// Longer, and run by hand: build/test_world --no-skip.
-TEST_CASE("a short life of every shipped board keeps all promises" * doctest::skip()) {
+TEST_CASE("a short life of every shipped board keeps all promises") {
     for (const host::ProfileEntry& entry : host::list_profiles()) {
         if (!entry.name.ends_with("-base")) {
             live(entry.name);
@@ -68,7 +61,7 @@ TEST_CASE("a world is its seed: the same bytes again, and others for another") {
 TEST_CASE("a broken promise shrinks to what breaks it, and its report plays again") {
     Cast cast = cast_of("elegoo-mars-pro");
     // A line that never answers so needs nothing to happen before.
-    cast.probes[static_cast<std::size_t>(behaviour::Channel::main)] = Probe{"M105", "what no board says"};
+    cast.probes[static_cast<std::size_t>(behaviour::Channel::main)] = Probe{"M105", "what no board says", {}};
     const Outcome outcome = play(cast, 3, whole(20));
     REQUIRE_FALSE(outcome.held());
     const std::vector<std::uint64_t> fewest = shrink(cast, 3, whole(20));
