@@ -266,7 +266,7 @@ SimTime Board::next_due() const {
     }
     const SimTime slot = schedule_.next_slot() <= time_ ? schedule_.next_slot()
                                                         : schedule_.next_due(scope(), machine_->restless());
-    return std::min({machine_->next_event(), next_tick(), slot, unfinished_due_, front_due()});
+    return machine::earliest(machine_->next_event(), next_tick(), slot, unfinished_due_, front_due());
 }
 
 /// A time before which nothing is due, found without asking which of the schedule's slots may send.
@@ -274,8 +274,8 @@ SimTime Board::nothing_before() const {
     if (machine_->hung()) {
         return machine_->next_event();
     }
-    return std::min(
-        {machine_->next_event(), next_tick(), schedule_.next_slot(), unfinished_due_, front_due()});
+    return machine::earliest(machine_->next_event(), next_tick(), schedule_.next_slot(), unfinished_due_,
+                             front_due());
 }
 
 /// Goes through the slots before `end`. Those passed over because nothing could come of them are among them,

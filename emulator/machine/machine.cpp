@@ -88,7 +88,7 @@ void Machine::pass(SimTime now) {
 
 SimTime Machine::next_event() const {
     const SimTime fault = faults.next_event();
-    return hung_ ? fault : std::min({next_of_parts(), card_check_, card_rescan_, timer_, user_until_, fault});
+    return hung_ ? fault : earliest(next_of_parts(), card_check_, card_rescan_, timer_, user_until_, fault);
 }
 
 void Machine::look_after_card(SimTime now) {
