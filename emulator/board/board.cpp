@@ -18,13 +18,13 @@ using behaviour::Scope;
 using behaviour::Send;
 using machine::never;
 
-constexpr std::size_t outbox_bytes = 12 * 1024;
-constexpr std::size_t outbox_messages = 128;
-constexpr std::size_t inbox_bytes = 8 * 1024;
+constexpr std::uint32_t outbox_bytes = 12 * 1024;
+constexpr std::uint32_t outbox_messages = 128;
+constexpr std::uint32_t inbox_bytes = 8 * 1024;
 /// Of a line that speaks as a host. The firmware has room for a few, and its USB holds the rest back in the
 /// computer, so that nothing is lost; here it waits in the board.
-constexpr std::size_t command_bytes = 32 * 1024;
-constexpr std::size_t command_count = 1024;
+constexpr std::uint32_t command_bytes = 32 * 1024;
+constexpr std::uint32_t command_count = 1024;
 constexpr std::size_t first_output = 2 * line_bytes;
 
 /// A code ("M2134"), not a word ("log"): words are no commands to the board and take no tick. The recorded
@@ -42,8 +42,7 @@ Board::Board(std::shared_ptr<const behaviour::Profile> profile, machine::Service
       schedule_(*profile_),
       inbox_(inbox_bytes, profile_->line.queue_lines),
       outbox_(outbox_bytes, outbox_messages),
-      codes_(profile_->queue_codes, profile_->code_cells),
-      scratch_(scratch_bytes) {
+      codes_(profile_->queue_codes, profile_->code_cells) {
     port(Channel::main).connected = true;
     if (profile_->line.framing == behaviour::Framing::commands) {
         machine_->commands.of_files = this;

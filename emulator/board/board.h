@@ -236,6 +236,7 @@ class Board final : private behaviour::NoticeSink, private machine::FileCommands
         std::size_t size = 0;
         unsigned lines = 0;
     };
+    std::span<char> scratch();
     void compose(const behaviour::Frame& frame, const behaviour::Scope& scope, Draft& draft);
     void compose_line(const behaviour::Frame& frame, const behaviour::FrameTemplate& text,
                       const behaviour::Scope& scope, std::size_t end, Draft& draft);
@@ -280,7 +281,7 @@ class Board final : private behaviour::NoticeSink, private machine::FileCommands
     bool muted_ = false;      ///< a file's command: nobody hears what is for whoever asked
     bool answered_ = false;   ///< what is being carried out has been acknowledged by its answer
     const behaviour::Rule* after_ = nullptr;  ///< of the command that runs: what is said when it is over
-    std::vector<char> scratch_;
+    std::unique_ptr<char[]> scratch_;
     std::vector<double> variables_;
     Counters counters_;
     SimTime time_{0};

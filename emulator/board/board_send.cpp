@@ -40,6 +40,14 @@ void Board::send(const Send& entry, const Scope& here) {
     send_to(Channel::host, entry, here);
 }
 
+/// Where a message is put together that does not go straight out.
+std::span<char> Board::scratch() {
+    if (scratch_ == nullptr) {
+        scratch_ = std::make_unique_for_overwrite<char[]>(scratch_bytes);
+    }
+    return {scratch_.get(), scratch_bytes};
+}
+
 void Board::send_to(Channel to, const Send& entry, const Scope& here) {
     const Frame& frame = profile_->frames[entry.frame];
     if (to == Channel::network ? !network_.asking() : !port(to).connected) {
@@ -54,8 +62,7 @@ void Board::send_to(Channel to, const Send& entry, const Scope& here) {
         const bool at_once = to != Channel::network && (entry.now || !paced);
         const bool short_one = frame.lines.size() == 1 && !frame.lines[0].for_each_entry;
         OutputBuffer& output = port(to).output;
-        Draft draft{at_once ? output.room(short_one ? line_bytes : room_for(frame))
-                            : std::span<char>(scratch_)};
+        Draft draft{at_once ? output.room(short_one ? line_bytes : room_for(frame)) : scratch()};
         compose(frame, here, draft);
         said(entry.frame, here);
         const std::string_view message(draft.room.data(), draft.size);
@@ -117,7 +124,7 @@ void Board::queue(const Send& entry, const Scope& here) {
             ++counters_.messages_lost;
             notice(Level::warning, "message " + frame.name + " lost: the board's transmit queue is full");
         } else if (frame.cell) {
-            Draft draft{std::span<char>(scratch_)};
+            Draft draft{scratch()};
             compose(frame, here, draft);
             codes_.keep(*frame.cell, {draft.room.data(), draft.size});
         }
@@ -131,7 +138,7 @@ void Board::emit_code(std::size_t id) {
         emit(codes_.kept(*frame.cell));
         return;
     }
-    Draft draft{std::span<char>(scratch_)};
+    Draft draft{scratch()};
     compose(frame, scope(), draft);
     emit({draft.room.data(), draft.size});
 }

@@ -19,7 +19,8 @@ class CommandQueue {
         bool numbered = false;
         bool acted = false;  ///< it was carried out as it came in; what is left is to acknowledge it
     };
-    CommandQueue(std::size_t bytes, std::size_t commands) : queue_(bytes, commands), many_(commands / 8) {}
+    CommandQueue(std::uint32_t bytes, std::uint32_t commands)
+        : queue_(bytes, commands), many_(commands / 8) {}
 
     bool empty() const { return queue_.empty(); }
     std::size_t size() const { return queue_.size(); }
@@ -44,7 +45,7 @@ class CommandQueue {
 
   private:
     MessageQueue queue_;
-    std::size_t many_;
+    std::uint32_t many_;
 };
 
 }  // namespace fauxboard::board

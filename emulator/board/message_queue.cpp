@@ -1,46 +1,43 @@
 #include "emulator/board/message_queue.h"
 
-#include <optional>
-
 namespace fauxboard::board {
 
-bool MessageQueue::push(std::string_view message) {
-    if (count_ == most_messages_) {
-        return false;
+/// A message lies in one piece, so that front() is a view: behind the newest one, or, when that leaves no
+/// room before the end, at the start.
+std::optional<std::uint32_t> MessageQueue::place_for(std::size_t size) const {
+    if (count_ == most_ || size > most_bytes_) {
+        return std::nullopt;
     }
-    if (spans_.empty()) {
-        bytes_.resize(most_bytes_);
-        spans_.resize(most_messages_);
-    }
-    // A message lies in one piece, so that front() is a view: behind the newest one, or, when that leaves no
-    // room before the end, at the start.
-    std::optional<std::size_t> place;
     if (count_ == 0) {
-        place = 0;
-    } else {
-        const Span& oldest = spans_[head_];
-        const Span& newest = spans_[(head_ + count_ - 1) % spans_.size()];
-        const std::size_t after = newest.from + newest.size;
-        if (newest.from >= oldest.from) {
-            place = after + message.size() <= bytes_.size() ? after : 0;
-            if (*place == 0 && message.size() > oldest.from) {
-                return false;
-            }
-        } else if (after + message.size() <= oldest.from) {
-            place = after;
-        }
+        return 0;
     }
-    if (!place || *place + message.size() > bytes_.size()) {
+    const Span& oldest = spans_[head_];
+    const Span& newest = spans_[(head_ + count_ - 1) % most_];
+    const std::uint32_t after = newest.from + newest.size;
+    const bool around = newest.from < oldest.from;
+    if (after + size <= (around ? oldest.from : most_bytes_)) {
+        return after;
+    }
+    return !around && size <= oldest.from ? std::optional<std::uint32_t>(0) : std::nullopt;
+}
+
+bool MessageQueue::push(std::string_view message) {
+    const std::optional<std::uint32_t> place = place_for(message.size());
+    if (!place) {
         return false;
     }
-    message.copy(bytes_.data() + *place, message.size());
-    spans_[(head_ + count_) % spans_.size()] = {*place, message.size()};
+    if (bytes_ == nullptr) {
+        bytes_ = std::make_unique_for_overwrite<char[]>(most_bytes_);
+        spans_ = std::make_unique_for_overwrite<Span[]>(most_);
+    }
+    message.copy(bytes_.get() + *place, message.size());
+    spans_[(head_ + count_) % most_] = {*place, static_cast<std::uint32_t>(message.size())};
     ++count_;
     return true;
 }
 
 void MessageQueue::pop() {
-    head_ = (head_ + 1) % spans_.size();
+    head_ = (head_ + 1) % most_;
     --count_;
 }
 

@@ -2,17 +2,17 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string_view>
-#include <vector>
 
 namespace fauxboard::board {
 
-/// Messages in the order they came, in a fixed piece of memory: allocates once, with the first of them, then
-/// never; a line that nobody speaks on weighs nothing. Full means refused, as in the small memory of a real
-/// board.
+/// Messages in the order they came, in a fixed piece of memory: allocates with the first message, then never;
+/// a line that nobody speaks on costs nothing. Full means refused, as in the small memory of a real board.
 class MessageQueue {
   public:
-    MessageQueue(std::size_t bytes, std::size_t messages) : most_bytes_(bytes), most_messages_(messages) {}
+    MessageQueue(std::uint32_t bytes, std::uint32_t messages) : most_bytes_(bytes), most_(messages) {}
 
     bool empty() const { return count_ == 0; }
     std::size_t size() const { return count_; }
@@ -21,22 +21,24 @@ class MessageQueue {
     /// The oldest message; valid until pop() or clear(). Not to be called when empty.
     std::string_view front() const {
         const Span& span = spans_[head_];
-        return {bytes_.data() + span.from, span.size};
+        return {bytes_.get() + span.from, span.size};
     }
     void pop();
     void clear() { head_ = count_ = 0; }
 
   private:
     struct Span {
-        std::size_t from = 0;
-        std::size_t size = 0;
+        std::uint32_t from;
+        std::uint32_t size;
     };
-    std::size_t most_bytes_;
-    std::size_t most_messages_;
-    std::vector<char> bytes_;
-    std::vector<Span> spans_;
-    std::size_t head_ = 0;
-    std::size_t count_ = 0;
+    std::optional<std::uint32_t> place_for(std::size_t size) const;
+
+    std::uint32_t most_bytes_;
+    std::uint32_t most_;
+    std::unique_ptr<char[]> bytes_{};
+    std::unique_ptr<Span[]> spans_{};
+    std::uint32_t head_ = 0;
+    std::uint32_t count_ = 0;
 };
 
 }  // namespace fauxboard::board

@@ -19,7 +19,6 @@ def start(folder, *arguments, web='127.0.0.1:0', speed='1'):
     return Program(PROGRAM, 'run', '--pty', '--speed', speed, '--web', f'{web}/{TOKEN}', *arguments, folder=folder)
 
 
-
 def small_print(folder):
     """Some forty lines: heats a little, draws three squares above each other."""
     lines = [';TYPE:test', 'G28', 'G90', 'M82', 'G92 E0', 'G1 F6000']
@@ -142,7 +141,8 @@ def chitu(folder, page):
         page.wait(lambda: page.find('canvas.layer') and page.find('canvas.layer').is_displayed(), 'the picture of the layer')
         page.wait(lambda: page.find('canvas.layer.lit'), 'the LED to shine')
         page.go('curves')
-        page.wait_text('.legend', 'resin.z')
+        page.wait_text('.legend', 'z ')
+        page.wait(lambda: page.find('.plot[data-unit="mm"] canvas'), 'the curve of the height')
 
 
 def write_cbddlp(path, layers=4, width=1440, height=2560):
