@@ -407,6 +407,7 @@ local codes = {
             { key = "Z", name = "Z", kind = "number", unit = "mm" },
             { key = "E", name = "E", kind = "number", unit = "mm" },
             { key = "F", name = "feedrate", kind = "number", unit = "mm/min" },
+            { key = "I", name = "move", kind = "integer", values = { [0] = "relative" }, meaning = "of ChiTu's hosts" },
         } },
         { code = "G1", title = "move", meaning = "Move, extruding or not.", answer = "L1", fields = {
             { key = "X", name = "X", kind = "number", unit = "mm" },
@@ -414,6 +415,7 @@ local codes = {
             { key = "Z", name = "Z", kind = "number", unit = "mm" },
             { key = "E", name = "E", kind = "number", unit = "mm" },
             { key = "F", name = "feedrate", kind = "number", unit = "mm/min" },
+            { key = "I", name = "move", kind = "integer", values = { [0] = "relative" }, meaning = "of ChiTu's hosts" },
         } },
         { code = "G2", title = "arc", meaning = "Move on an arc, clockwise.", answer = "L1", fields = {
             { key = "X", name = "X", kind = "number", unit = "mm" },
