@@ -88,9 +88,9 @@ TEST_CASE("the tour comes to every page to which a touch leads; what comes of fa
     // Without a file that is too high, that page is missing, and it says so.
     CHECK(tour.code == failed);
     CHECK(contains(tour.out, "\nToo high: no touch of this tour led to it\n"));
+    // What passes by itself may do so unseen: the board goes on while the tour looks.
     for (const char* page :
-         {"Printing", "Cancel printing?", "Printing interrupted", "Zero set", "Loading settings",
-          "Settings loaded", "Deleted", "Number", "Clock", "Screensaver"}) {
+         {"Printing", "Cancel printing?", "Settings loaded", "Deleted", "Number", "Clock", "Screensaver"}) {
         CAPTURE(page);
         CHECK_FALSE(contains(tour.out, std::string("\n") + page + ": "));
     }
