@@ -18,7 +18,9 @@ constexpr auto elsewhere = 10s;
 }  // namespace
 
 Progress::Progress()
-    : out_(STDERR_FILENO), terminal_(::isatty(STDERR_FILENO) == 1), due_(Clock::now() + patience) {}
+    : out_(STDERR_FILENO),
+      terminal_(::isatty(STDERR_FILENO) == 1),
+      due_(Clock::now() + (terminal_ ? patience : elsewhere)) {}
 
 void Progress::say(std::string_view text) {
     const auto now = Clock::now();

@@ -8,7 +8,7 @@
 namespace fauxboard::tools {
 
 /// How far long work has got, on stderr: nothing in the first two seconds, then a line that is written over
-/// and over on a terminal; elsewhere, in a log of CI, one now and then.
+/// and over on a terminal; elsewhere, in a log of CI, one every ten seconds.
 class Progress {
   public:
     Progress();
