@@ -8,6 +8,8 @@ namespace {
 
 /// From power-on to the main menu: panel, its test image, stick.
 constexpr SimTime start_time = ms(2000);
+/// Between two savings of the working times (0.08), besides those at the end of a print.
+constexpr SimTime hour = ms(3'600'000);
 /// Until a settings file is read off the stick.
 constexpr SimTime read_time = ms(100);
 
@@ -86,6 +88,7 @@ void MksBoard::power_on(SimTime now) {
     dozing_ = false;
     read_due_ = never;
     panel_due_ = now + panel_time;
+    hour_due_ = config_.firmware == Firmware::v008 ? now + hour : never;
     files.home();
     ready_due_ = now + start_time;
 }
@@ -121,7 +124,7 @@ std::string_view MksBoard::start_step(SimTime now) const {
 
 SimTime MksBoard::next_event() const {
     return std::min({platform.next_event(), lamp.next_event(), print.next_event(), uv_test.next_event(),
-                     motor.next_event(), eeprom.next_event(), read_due_, panel_due_, ready_due_});
+                     motor.next_event(), eeprom.next_event(), read_due_, panel_due_, hour_due_, ready_due_});
 }
 
 void MksBoard::advance(SimTime now) {
@@ -139,6 +142,11 @@ void MksBoard::advance(SimTime now) {
         if (read_due_ <= next) {
             read_due_ = never;
             read_setup(next);
+        }
+        if (hour_due_ <= next) {
+            hour_due_ += hour;
+            counters.on_s = add_seconds(counters.on_s, hour);
+            count(print.worked_so_far(next), next);
         }
         if (panel_due_ <= next) {
             panel_due_ = never;
@@ -161,22 +169,22 @@ void MksBoard::settle(SimTime now) {
     now_ = std::max(now_, now);
     print.advance(now);
     motor.follow(print.state() != PrintState::idle, settings.motor, now);
-    count_work(now);
+    if (const auto worked = print.take_worked()) {
+        count(worked, now);
+    }
     watch.look(lamp.on(), platform.busy(), print.active() && print.homed(), platform.position(now));
 }
 
-/// What a print that ended adds to the working times.
-void MksBoard::count_work(SimTime now) {
-    const auto worked = print.take_worked();
-    if (!worked) {
-        return;
+/// What a print adds to the working times, which are kept.
+void MksBoard::count(const std::optional<Print::Worked>& worked, SimTime now) {
+    if (worked) {
+        counters.led_s = add_seconds(counters.led_s, worked->lit);
+        if (!quirks.display_not_counted) {
+            counters.display_s = add_seconds(counters.display_s, worked->lit);
+        }
+        counters.fan_s = add_seconds(counters.fan_s, worked->wall);
+        counters.print_s = add_seconds(counters.print_s, worked->wall);
     }
-    counters.led_s = add_seconds(counters.led_s, worked->lit);
-    if (!quirks.display_not_counted) {
-        counters.display_s = add_seconds(counters.display_s, worked->lit);
-    }
-    counters.fan_s = add_seconds(counters.fan_s, worked->wall);
-    counters.print_s = add_seconds(counters.print_s, worked->wall);
     write_block(Block::counters, now);
 }
 

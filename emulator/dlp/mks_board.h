@@ -110,7 +110,7 @@ class MksBoard final : private Listener {
     void sound_for(std::uint32_t time_ms);
     void read_setup(SimTime now);
     void end_setup(Event event);
-    void count_work(SimTime now);
+    void count(const std::optional<Print::Worked>& worked, SimTime now);
     void start_panel(SimTime now);
 
     BoardConfig config_;
@@ -127,6 +127,7 @@ class MksBoard final : private Listener {
     bool setup_opened_ = true;
     bool dozing_ = false;
     SimTime read_due_ = never;
+    SimTime hour_due_ = never;   ///< when the working times are kept next
     SimTime panel_due_ = never;  ///< when the start comes to the panel
     SimTime ready_due_ = never;
     SimTime started_{0};

@@ -56,6 +56,13 @@ std::optional<Print::Worked> Print::take_worked() {
     return std::exchange(worked_, std::nullopt);
 }
 
+std::optional<Print::Worked> Print::worked_so_far(SimTime now) {
+    if (!file_ || state_ == PrintState::last_lift) {
+        return std::nullopt;
+    }
+    return Worked{parts_.lamp.take_lit(now), now - std::exchange(counted_to_, now)};
+}
+
 bool Print::start(const std::string& path, SimTime now) {
     if (state_ != PrintState::idle) {
         problem_ = "The platform moves, or a print is under way.";
@@ -79,7 +86,7 @@ bool Print::start(const std::string& path, SimTime now) {
     paused_ = cancelled_ = needs_picture_ = false;
     changes = {};
     for_print_ = true;
-    started_ = now;
+    started_ = counted_to_ = now;
     elapsed_ = SimTime{0};
     count(false, now);
     parts_.lamp.take_lit(now);
@@ -350,6 +357,9 @@ bool Print::stand_paused(SimTime now) {
         return false;
     }
     rise_told_ = true;
+    if (parts_.firmware == Firmware::v008) {
+        parts_.lamp.fan_off_in(SimTime{0}, now);
+    }
     parts_.listener.raise(Event::print_pause_reached);
     return true;
 }
@@ -375,6 +385,7 @@ void Print::go_on(SimTime now) {
         begin_load(now);
     }
     count(true, now);
+    parts_.lamp.fan_for(never, now);
     enter(PrintState::drop);
     go_back_from_pause(now);
 }
@@ -399,7 +410,7 @@ void Print::complete(SimTime now) {
     parts_.panel.sleep(now);
     parts_.panel.command(clean_bank, false, false, now);
     parts_.lamp.fan_off_in(fan_after_print, now);
-    worked_ = Worked{parts_.lamp.take_lit(now), now - started_};
+    worked_ = Worked{parts_.lamp.take_lit(now), now - counted_to_};
     count(false, now);
     enter(PrintState::last_lift);
     parts_.listener.raise(Event::print_finishing);

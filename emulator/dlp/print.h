@@ -106,6 +106,8 @@ class Print {
         SimTime wall{0};
     };
     std::optional<Worked> take_worked();
+    /// Of one under way, since it was counted last; the rest comes with its end.
+    std::optional<Worked> worked_so_far(SimTime now);
 
     /// Changes that hold from the next layer on that is read (0.08).
     struct Changes {
@@ -176,6 +178,7 @@ class Print {
     SimTime load_due_ = never;
     SimTime until_ = never;  ///< end of a countdown
     SimTime started_{0};
+    SimTime counted_to_{0};
     SimTime wall_end_{0};
     SimTime elapsed_{0};
     SimTime counted_from_{0};

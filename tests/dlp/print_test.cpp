@@ -340,6 +340,38 @@ TEST_CASE("DLP print: no exposure, no light; the model higher than the axis is c
     CHECK(high.count(Event::print_exposed) == 35);
 }
 
+TEST_CASE("DLP 0.08: working times are kept every hour, and counted once; the fan rests in a pause") {
+    BoardConfig config;
+    config.firmware = Firmware::v008;
+    PanelPws wishes = few(3);
+    wishes.exposure_s = wishes.bottom_exposure_s = 1500;
+    DlpBench bench(config, stick_with(wishes));
+    start(bench);
+    REQUIRE(bench.run_to(Event::print_exposing));
+    CHECK(bench.board.lamp.fan());
+    REQUIRE(bench.board.print.set_paused(true, bench.now));
+    REQUIRE(bench.run_to(Event::print_pause_reached));
+    bench.run(1);
+    CHECK_FALSE(bench.board.lamp.fan());
+    REQUIRE(bench.board.print.set_paused(false, bench.now));
+    CHECK(bench.board.lamp.fan());
+    bench.run_until(ms(3'601'000));
+    CHECK(bench.board.counters.on_s == 3600);
+    CHECK(bench.board.counters.led_s > 1500);
+    CHECK(bench.board.counters.led_s < 3600);
+    CHECK(bench.board.counters.print_s > 3590);
+    REQUIRE(bench.run_to(Event::print_finishing));
+    CHECK(bench.board.counters.led_s >= 4499);  // each part is cut to whole seconds
+    CHECK(bench.board.counters.led_s <= 4500);
+    CHECK(bench.board.counters.print_s <= 4600);
+    bench.run_until(ms(7'201'000));
+    CHECK(bench.board.counters.on_s == 7200);
+    // 0.01 keeps them at the end of a print alone.
+    DlpBench before({}, stick_with(few(1)));
+    before.run_until(ms(7'201'000));
+    CHECK(before.board.counters.on_s == 0);
+}
+
 TEST_CASE("DLP print: a whole print without anybody looking is over in a moment, its times are the file's") {
     DlpBench bench({}, stick_with({}));
     watch(bench);

@@ -1,9 +1,11 @@
 // A board with a screen of its own, as its users have it: touched, told and looked at from outside.
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 
 #include "tests/e2e/program.h"
+#include "tests/support/dlp_bench.h"
 
 namespace fauxboard::e2e {
 namespace {
@@ -62,6 +64,31 @@ TEST_CASE("ctl page, touch and screenshot; screen show and press with --control"
     CHECK(contains(pressed.out, "UV test: UV test\n"));
     CHECK(contains(live.ctl({"get", "lamp.on"}).out, "true"));
     CHECK(run({"screen", "--control", live.control, "press", "Nowhere"}).code == 1);
+}
+
+TEST_CASE("the tour comes to every page to which a touch leads; what comes of faults it may miss") {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder.file("stick"));
+    testing::PanelPws wishes;
+    wishes.layers = 2;
+    wishes.exposure_s = wishes.bottom_exposure_s = 1;
+    std::ofstream(folder.file("stick/model.pws"), std::ios::binary) << testing::make_panel_pws(wishes);
+    std::ofstream(folder.file("stick/a.acfg")) << "[ZMotor]\nfeedrate = 7\n";
+    Program program({"run", "-q", "--profile", "mks-dlp", "--udisk", folder.file("stick"), "--control",
+                     folder.file("control"), "--speed", "30"});
+    program.ready();
+    const Result tour = run({"screen", "--control", folder.file("control"), "tour"});
+    INFO(tour.out);
+    CHECK(contains(tour.out, " 0 not met, "));
+    // Without a file that is too high, that page is missing, and it says so.
+    CHECK(tour.code == failed);
+    CHECK(contains(tour.out, "\nToo high: no touch of this tour led to it\n"));
+    for (const char* page : {"Printing", "Cancel printing?", "Printing interrupted", "Home first?", "Zero set",
+                             "Loading settings", "Settings loaded", "Deleted", "Number", "Clock", "Screensaver"}) {
+        CAPTURE(page);
+        CHECK_FALSE(contains(tour.out, std::string("\n") + page + ": "));
+    }
+    CHECK(contains(tour.out, "\nLimit switch, homing: it comes by itself, and did not on this tour\n"));
 }
 
 TEST_CASE("a board without a screen says so") {
