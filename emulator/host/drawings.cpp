@@ -115,9 +115,10 @@ Json Drawings::picture(bool whole) {
         return nullptr;
     }
     const std::string layer = fmt::format("{} {} ", place->path, place->layer);
+    const auto layers = place->file.header().layers;  // behind the last one the place is one more
     Json out{{"lit", lit},
-             {"words", fmt::format("Layer {} of {}, {}", place->layer + 1, place->file.header().layers,
-                                   lit ? "the LED shines" : "dark")}};
+             {"words", fmt::format("Layer {} of {}, {}", std::min<std::uint64_t>(place->layer + 1, layers),
+                                   layers, lit ? "the LED shines" : "dark")}};
     if (whole || !told_.starts_with(layer)) {
         if (const auto small = read_picture(*place)) {
             out["width"] = small->width;
