@@ -152,6 +152,19 @@ def own_screen(folder, page):
         page.wait(lambda: page.find('.face.pixels img') and page.find('.face.pixels img').size['width'] > 200, 'its pixels')
         page.wait(lambda: page.find('.spot[title="FILES"]'), 'its controls').click()
         page.wait(lambda: page.find('.spot[title*="ack"]') or page.find('.spot[title*="BACK"]'), 'the page of files')
+        page.go('print')
+        page.driver.execute_async_script(
+            'const done = arguments[0]; window.board.op("do", {do: {"uvtest.image": {n: 3}}})'
+            '.then(() => window.board.op("advance", {by: 10}))'
+            '.then(() => window.board.op("do", {do: {"uvtest.display": {on: true}}}))'
+            '.then(() => window.board.op("do", {do: {"uvtest.light": {on: true}}})).then(done, done)')
+        page.wait(lambda: page.find('canvas.layer.lit'), 'what the panel lets through')
+        white = page.driver.execute_script(
+            'const layer = document.querySelector("canvas.layer");'
+            'const bytes = layer.getContext("2d").getImageData(0, 0, layer.width, layer.height).data;'
+            'return bytes.filter((value, i) => i % 4 === 0 && value === 255).length / (bytes.length / 4)')
+        if not 0.1 < white < 0.9:
+            raise Failed(f'six blocks are to be seen, and {white:.0%} of the picture is white')
         if page.find('#line').is_displayed():
             raise Failed('a board without a line has one: ' + page.text('#line'))
 
