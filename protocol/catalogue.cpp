@@ -19,7 +19,8 @@ std::vector<CodeInfo> collect() {
     std::vector<CodeInfo> all;
     for (const auto part : {tables::status_replies(), tables::special_replies(), tables::bare_replies(),
                             tables::machine_requests(), tables::job_requests(), tables::smartto_requests(),
-                            tables::chitu_requests(), tables::chitu_replies()}) {
+                            tables::chitu_requests(), tables::chitu_replies(), tables::marlin_requests(),
+                            tables::marlin_replies()}) {
         all.insert(all.end(), part.begin(), part.end());
     }
     std::sort(all.begin(), all.end(),

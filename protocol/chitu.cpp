@@ -121,8 +121,35 @@ constexpr CodeInfo requests[] = {
     asked("M99999", "discovery", "ChiTu: who is there?", {}, "ok MAC:"),
 };
 
+/// "ok B:0/0 X:0.000 Y:0.000 Z:5.000 F:0/256 D:3860/241025/0 ", behind the "ok B:" that it begins with.
+constexpr FieldInfo status[] = {
+    number("", "bed", "°C"),
+    bracketed(number("/", "target", "°C")),
+    number("E1:", "nozzle 1", "°C"),
+    bracketed(number("/", "target", "°C")),
+    number("E2:", "nozzle 2", "°C"),
+    bracketed(number("/", "target", "°C")),
+    number("X:", "X", "mm"),
+    number("Y:", "Y", "mm"),
+    number("Z:", "Z", "mm", 3),
+    integer("F:", "LED fan", "of 256"),
+    integer("/", "board fan", "of 256"),
+    integer("D:", "at", "bytes"),
+    integer("/", "of", "bytes", "0: no print"),
+    integer("/", "halted", {}, "1 while paused, and without a print"),
+    integer("T:", "print time", "s"),
+};
+constexpr FieldInfo place[] = {
+    number("X:", "X", "mm"),
+    number("Y:", "Y", "mm"),
+    number("Z:", "Z", "mm"),
+    number("E:", "E", "mm"),
+};
+
 constexpr CodeInfo replies[] = {
     told("ok", "acknowledged", "The request was taken; what it asked for stands behind.", answer),
+    told("ok B:", "status", "Answer to M4000.", status),
+    told("ok C:", "position", "Answer to M114.", place),
     told("SD N:", "SD progress", "ChiTu 4.4.3: the first piece of the answer to M27.", answer),
     told("byte", "SD progress", "ChiTu 4.4.3: the place in the file, and its size.", answer),
     told("Error:", "refused", "The request cannot be done.", answer),

@@ -6,12 +6,14 @@ namespace fauxboard::protocol::tables {
 
 namespace {
 
+constexpr ValueName relative_moves[] = {{0, "relative"}};
 constexpr FieldInfo move[] = {
     number("X", "X", "mm"),
     number("Y", "Y", "mm"),
     number("Z", "Z", "mm"),
     number("E", "E", "mm"),
     number("F", "feedrate", "mm/min"),
+    choice("I", "move", relative_moves, "of ChiTu's hosts"),
 };
 constexpr FieldInfo arc[] = {
     number("X", "X", "mm"), number("Y", "Y", "mm"),

@@ -15,6 +15,8 @@ std::span<const CodeInfo> machine_requests();  // G codes, T codes, the usual M 
 std::span<const CodeInfo> job_requests();      // card, print job, settings; common M codes
 std::span<const CodeInfo> chitu_requests();    // of resin boards
 std::span<const CodeInfo> chitu_replies();
+std::span<const CodeInfo> marlin_requests();  // of boards that speak as hosts do
+std::span<const CodeInfo> marlin_replies();
 std::span<const CodeInfo> smartto_requests();  // M2011..M2140, the screen's L codes, its words
 
 using Values = std::span<const ValueName>;

@@ -90,6 +90,7 @@ void BoardUnit::set_up() {
     faults_.emplace(*link_, host_link_ ? &*host_link_ : nullptr, has_main_line());
     add_faults();
     live_.emplace(*board_, *link_, *clock_, &observers_);
+    tell_of_faults();
     if (screen_) {
         display_ = std::make_unique<host::BoardDisplay>(*screen_, *board_);
     } else if (plug_) {
@@ -107,6 +108,22 @@ void BoardUnit::add_faults() {
                                                      board_->machine().faults.refusal(*spec.kind->printer))});
         }
     }
+}
+
+/// In the log, to clients and wherever else people look: when a fault begins, what it does, when it is over.
+void BoardUnit::tell_of_faults() {
+    const auto listen = [this](host::FaultyLink& line, board::Channel channel) {
+        line.on_deed([this, &line, channel](fault::Deed deed) {
+            deed.fault = faults_->known_as(line, deed.fault);
+            observers_.on_deed(live_->now(), channel, deed);
+        });
+    };
+    listen(*link_, board::Channel::main);
+    if (host_link_) {
+        listen(*host_link_, board::Channel::host);
+    }
+    observers_.add(fault_watch_.emplace(
+        *board_, *faults_, [this](const std::string& sentence) { say(board::Level::info, sentence); }));
 }
 
 /// What a board keeps when it is off: some as values, some byte by byte.
@@ -171,7 +188,6 @@ void BoardUnit::open_target(std::function<void()> quit) {
         target_->show(*plug_);
     }
     observers_.add(*target_);
-    link_->on_deed([this](const fault::Deed& deed) { target_->on_spoiled(deed); });
     if (!options_.control.empty()) {
         control_.emplace(loop_, target_->hub(),
                          [this](std::string_view text) { say(board::Level::info, text); });
@@ -255,6 +271,7 @@ void BoardUnit::reload(std::shared_ptr<const behaviour::Profile> profile) {
 }
 
 void BoardUnit::close() {
+    fault_watch_->look();
     if (control_) {
         control_->close();
     }

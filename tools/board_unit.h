@@ -12,6 +12,7 @@
 #include "emulator/host/control_server.h"
 #include "emulator/host/eeprom_cells_file.h"
 #include "emulator/host/eeprom_file.h"
+#include "emulator/host/fault_watch.h"
 #include "emulator/host/faulty_link.h"
 #include "emulator/host/folder_card.h"
 #include "emulator/host/job_place_file.h"
@@ -82,6 +83,7 @@ class BoardUnit {
     void set_up_memory(machine::Services& services);
     void set_up_panel();
     void add_faults();
+    void tell_of_faults();
     link::Link& make_wire();
     /// A board that can do without its screen has no line for one when only its USB side was asked for.
     bool has_main_line() const {
@@ -111,6 +113,7 @@ class BoardUnit {
     std::unique_ptr<link::Link> host_wire_;  ///< the board's USB port as it is
     std::optional<host::FaultyLink> host_link_;
     std::optional<host::LineFaults> faults_;
+    std::optional<host::FaultWatch> fault_watch_;
     std::optional<touch::TouchScreen> screen_;  ///< part of the board
     std::optional<board::Board> board_;
     std::optional<host::LiveBoard> live_;

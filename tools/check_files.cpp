@@ -21,6 +21,15 @@ namespace fs = std::filesystem;
 using behaviour::Problem;
 using behaviour::SourceText;
 
+/// What a screen says first is a line of its own, or its first request is lost.
+std::string hello_remark(const screen::ScreenProfile& screen) {
+    const std::string& hello = screen.line.hello;
+    const bool ends =
+        hello.empty() ||
+        hello.find('\n', hello.size() - std::min<std::size_t>(hello.size(), 2)) != std::string::npos;
+    return ends ? "" : "line.hello has no line end: the first request would be glued to it, and lost";
+}
+
 /// A kind of file: what its "$schema" names, keys that no other kind has, and who knows its meaning.
 struct Kind {
     std::string_view schema;
@@ -36,8 +45,7 @@ constexpr Kind kinds[] = {
     {"screen.schema.json",
      {"pages", "everywhere", "values", "tour"},
      [](const SourceText& source) {
-         screen::load_screen(source, host::screen_finder());
-         return std::string();
+         return hello_remark(*screen::load_screen(source, host::screen_finder()));
      }},
     {"scenario.schema.json",
      {"steps", "parameters", "limits", "screen"},

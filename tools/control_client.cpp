@@ -6,9 +6,12 @@
 
 #include <array>
 #include <cerrno>
+#include <utility>
 
 #include "emulator/host/text_output.h"
+#include "emulator/link/link.h"
 #include "emulator/link/local_path.h"
+#include "tools/patience.h"
 
 namespace fauxboard::tools {
 namespace {
@@ -24,10 +27,25 @@ ssize_t read_retry(int fd, char* data, std::size_t size) {
     return got;
 }
 
+/// `fauxboard run --control X &`, then `fauxboard ctl X`: the board has its socket a moment later.
+link::UniqueFd connect_patiently(const std::string& path, int timeout_ms) {
+    link::UniqueFd fd;
+    wait_a_moment(
+        [&] {
+            try {
+                fd = link::connect_local(path);
+            } catch (const link::LinkError&) {  // perhaps the next time; the last one is told
+            }
+            return static_cast<bool>(fd);
+        },
+        timeout_ms);
+    return fd ? std::move(fd) : link::connect_local(path);
+}
+
 }  // namespace
 
 ControlClient::ControlClient(const std::string& path, int timeout_ms)
-    : fd_(link::connect_local(path)), timeout_ms_(timeout_ms) {}
+    : fd_(connect_patiently(path, timeout_ms)), timeout_ms_(timeout_ms) {}
 
 bool ControlClient::send(std::string_view bytes) const {
     while (!bytes.empty()) {

@@ -17,7 +17,8 @@ class ControlClient {
   public:
     enum class Got { line, end, silence };
 
-    /// Throws link::LinkError when nobody listens there. `timeout_ms`: how long receive() waits; -1 for ever.
+    /// Waits a moment for a board that is just starting; throws link::LinkError when nobody listens there
+    /// even then. `timeout_ms`: how long receive() waits; -1 for ever.
     ControlClient(const std::string& path, int timeout_ms);
 
     /// False when the other end is gone.

@@ -180,6 +180,12 @@ Json value_of(const std::string& path, const std::string& text) {
     return !wants_text && (parsed.is_number() || parsed.is_boolean()) ? parsed : Json(text);
 }
 
+/// "10" is a number of seconds, "10min" a text.
+Json time_of(const std::string& text) {
+    const Json parsed = Json::parse(text, nullptr, false);
+    return parsed.is_number() ? parsed : Json(text);
+}
+
 Json assignments(const std::vector<std::string>& words) {
     Json out = Json::object();
     for (const std::string& word : words) {
@@ -304,9 +310,9 @@ void add_doing(CLI::App& to, Ctl& ctl) {
     }
     add(to, "advance", "Virtual time jumps forward; returns when it has got there",
         [&ctl] {
-            ctl.request = Json{{"op", "advance"}, {"by", joined(ctl.words)}};
+            ctl.request = Json{{"op", "advance"}, {"by", time_of(joined(ctl.words))}};
         })
-        ->add_option("TIME", ctl.words, "500ms, 10s, 5min, 24h, 30d")
+        ->add_option("TIME", ctl.words, "500ms, 10s, 5min, 24h, 30d, or seconds")
         ->required()
         ->expected(1);
 }
@@ -363,7 +369,7 @@ void add_watching(CLI::App& to, Ctl& ctl) {
                 state["fields"] = ctl.words;
             }
             if (!ctl.every.empty()) {
-                state["every"] = ctl.every;
+                state["every"] = time_of(ctl.every);
             }
             ctl.subscriptions.push_back(std::move(state));
         }

@@ -1,6 +1,5 @@
 // `fauxboard describe`: the reference, from the tables in the code.
 
-#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -13,7 +12,7 @@ namespace fauxboard::tools {
 namespace {
 
 struct DescribeArguments {
-    std::vector<std::string> parts;
+    std::vector<std::string> words;
     bool json = false;
     bool markdown = false;
     std::string schema;
@@ -37,13 +36,11 @@ ExitCode describe(const DescribeArguments& arguments) {
         print(reference_markdown());
         return ExitCode::ok;
     }
-    std::vector<std::string_view> parts(reference_parts.begin(), reference_parts.end());
-    if (!arguments.parts.empty()) {
-        std::erase_if(parts, [&](std::string_view part) {
-            return std::find(arguments.parts.begin(), arguments.parts.end(), part) == arguments.parts.end();
-        });
+    const Choice chosen = choose_reference(arguments.words);
+    if (!chosen.wrong.empty()) {
+        return complain("describe", ExitCode::usage, chosen.wrong);
     }
-    print(arguments.json ? reference_json(parts).dump(2) + "\n" : reference_text(parts));
+    print(arguments.json ? chosen.reference.dump(2) + "\n" : reference_text(chosen.reference));
     return ExitCode::ok;
 }
 
@@ -55,8 +52,12 @@ void add_describe(CLI::App& app, ExitCode& exit) {
                                            "faults of line and printer, the control channel, "
                                            "scenarios");
     const auto arguments = std::make_shared<DescribeArguments>();
-    command->add_option("part", arguments->parts, "Which parts; all when none is named")
-        ->check(CLI::IsMember(std::vector<std::string>(reference_parts.begin(), reference_parts.end())));
+    command
+        ->add_option(
+            "WORD", arguments->words,
+            "Parts (fields, actions, events, codes, faults, control, scenarios), or one of what they "
+            "hold: heaters.nozzle.target, L3, motion.home, jam; all when none is named")
+        ->type_name("");
     CLI::Option* json = command->add_flag("--json", arguments->json, "As a JSON object");
     CLI::Option* markdown = command->add_flag("--markdown", arguments->markdown,
                                               "All of it as the Markdown page profiles/REFERENCE.md");

@@ -9,19 +9,28 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace fauxboard::tools {
 
 /// The parts of the reference, in its order.
-inline constexpr std::array<std::string_view, 7> reference_parts{
-    "fields", "actions", "events", "codes", "faults", "control", "scenarios"};
+inline constexpr std::array<std::string_view, 7> reference_parts{"fields", "actions", "events",   "codes",
+                                                                 "faults", "control", "scenarios"};
 
 /// The parts asked for, each under its name: an array of rows; faults, control and scenarios an object of
 /// several.
 nlohmann::ordered_json reference_json(std::span<const std::string_view> parts);
 
+/// What somebody asks for by words: parts, and rows of them ("heaters.nozzle", "L3", "jam").
+struct Choice {
+    nlohmann::ordered_json reference;  ///< as reference_json(), with the rows asked for
+    std::string wrong;                 ///< of a word that nothing has, with the nearest one; empty for none
+};
+/// Without words all of it.
+Choice choose_reference(const std::vector<std::string>& words);
+
 /// For a terminal.
-std::string reference_text(std::span<const std::string_view> parts);
+std::string reference_text(const nlohmann::ordered_json& reference);
 
 /// The whole reference as a Markdown page.
 std::string reference_markdown();

@@ -210,8 +210,7 @@ void codes_of(const Json& rows, const char* direction, const char* title, Out ou
 
 }  // namespace
 
-std::string reference_text(std::span<const std::string_view> parts) {
-    const Json reference = reference_json(parts);
+std::string reference_text(const Json& reference) {
     std::string text;
     const Out out = std::back_inserter(text);
     for (const auto& [part, rows] : reference.items()) {

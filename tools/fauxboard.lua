@@ -32,16 +32,40 @@ local codes = {
         } },
         { code = "//#####Error!cann't open file", words = true, title = "no start-up file", meaning = "Of the console at power-on.", fields = {} },
         { code = "//Disk init fail!", words = true, title = "no stick", meaning = "There is no stick, or it cannot be read.", fields = {} },
+        { code = "//action:", words = true, title = "host action", meaning = "What the host should do.", fields = {
+            { key = "", name = "text", kind = "text" },
+        } },
+        { code = "//action:prompt_begin", words = true, title = "question", meaning = "To the host's user; its buttons follow.", fields = {
+            { key = "", name = "text", kind = "text" },
+        } },
+        { code = "//action:prompt_button", words = true, title = "button", meaning = "Of the question; M876 S answers with its number.", fields = {
+            { key = "", name = "text", kind = "text" },
+        } },
+        { code = "//action:prompt_end", words = true, title = "question is over", meaning = "The host takes it away.", fields = {} },
+        { code = "//action:prompt_show", words = true, title = "question is whole", meaning = "The host shows it.", fields = {} },
         { code = "Begin file list", words = true, title = "file list begins", meaning = "Files and sizes follow.", fields = {} },
+        { code = "Brown out Reset", words = true, title = "reset", meaning = "Why the board started.", fields = {} },
+        { code = "Cap:", words = true, title = "capability", meaning = "What the firmware was built with; 0 without, 1 with.", fields = {
+            { key = "", name = "text", kind = "text" },
+        } },
         { code = "Delete failed :", words = true, title = "no file to delete", meaning = "There was no such file.", fields = {
             { key = "", name = "text", kind = "text" },
         } },
+        { code = "Done printing file", words = true, title = "print finished", meaning = "The file's end was reached.", fields = {} },
         { code = "Done saving file!", words = true, title = "file written", meaning = "A file of the stick is whole.", fields = {} },
+        { code = "Done saving file.", words = true, title = "file written", meaning = "Answer to M29.", fields = {} },
         { code = "End file list", words = true, title = "file list ends", meaning = "No more files.", fields = {} },
         { code = "Error!", words = true, title = "refused", meaning = "The request cannot be done.", fields = {
             { key = "", name = "text", kind = "text" },
         } },
         { code = "Error:", words = true, title = "refused", meaning = "The request cannot be done.", fields = {
+            { key = "", name = "text", kind = "text" },
+        } },
+        { code = "External Reset", words = true, title = "reset", meaning = "Why the board started.", fields = {} },
+        { code = "FIRMWARE_NAME:", words = true, title = "identity", meaning = "Answer to M115.", fields = {
+            { key = "", name = "text", kind = "text" },
+        } },
+        { code = "FR:", words = true, title = "print speed", meaning = "Answer to M220.", fields = {
             { key = "", name = "text", kind = "text" },
         } },
         { code = "File deleted :", words = true, title = "file deleted", meaning = "A file of the stick is gone.", fields = {
@@ -53,6 +77,14 @@ local codes = {
         { code = "File selected", words = true, title = "file selected", meaning = "Answer to M23.", fields = {
             { key = "", name = "text", kind = "text" },
         } },
+        { code = "Marlin", words = true, title = "firmware", meaning = "Its version.", fields = {
+            { key = "", name = "text", kind = "text" },
+        } },
+        { code = "Not SD printing", words = true, title = "no print", meaning = "Answer to M27.", fields = {} },
+        { code = "PowerUp", words = true, title = "power-on", meaning = "Why the board started.", fields = {} },
+        { code = "Resend:", words = true, title = "again, please", meaning = "The number of the line wanted next.", fields = {
+            { key = "", name = "text", kind = "text" },
+        } },
         { code = "SD N:", words = true, title = "SD progress", meaning = "ChiTu 4.4.3: the first piece of the answer to M27.", fields = {
             { key = "", name = "text", kind = "text" },
         } },
@@ -60,19 +92,99 @@ local codes = {
             { key = "", name = "at", kind = "integer" },
             { key = "/", name = "of", kind = "integer", unit = "bytes" },
         } },
+        { code = "Software Reset", words = true, title = "reset", meaning = "Why the board started.", fields = {} },
         { code = "Start Print:", words = true, title = "print started", meaning = "Answer to M24, sent without frame.", fields = {
             { key = "", name = "file", kind = "text", meaning = "volume and path: SD1:/A30T/cube.gco" },
         } },
+        { code = "Stats:", words = true, title = "print statistics", meaning = "Answer to M78.", fields = {
+            { key = "", name = "text", kind = "text" },
+        } },
         { code = "Stop Print", words = true, title = "print stopped", meaning = "Answer to M2103, sent without frame.", fields = {} },
+        { code = "T:", words = true, title = "temperatures", meaning = "Of a wait for a heater, or a report (M155).", fields = {
+            { key = "", name = "nozzle", kind = "number", unit = "°C" },
+            { key = "/", name = "target", kind = "number", unit = "°C" },
+            { key = "B:", name = "bed", kind = "number", unit = "°C" },
+            { key = "/", name = "target", kind = "number", unit = "°C" },
+            { key = "C:", name = "chamber", kind = "number", unit = "°C" },
+            { key = "/", name = "target", kind = "number", unit = "°C" },
+            { key = "T0:", name = "extruder 0", kind = "number", unit = "°C" },
+            { key = "/", name = "target", kind = "number", unit = "°C" },
+            { key = "T1:", name = "extruder 1", kind = "number", unit = "°C" },
+            { key = "/", name = "target", kind = "number", unit = "°C" },
+            { key = "@:", name = "nozzle power", kind = "integer", unit = "of 127" },
+            { key = "B@:", name = "bed power", kind = "integer", unit = "of 127" },
+            { key = "W:", name = "must hold for", kind = "text", meaning = "whole seconds; ? while it is not there" },
+        } },
         { code = "UART1 init OK", words = true, title = "power-on", meaning = "Of the console.", fields = {} },
         { code = "USB disk_OK", words = true, title = "stick is there", meaning = "Of the console at power-on.", fields = {} },
         { code = "USB disk_ok", words = true, title = "stick put in", meaning = "Of the console.", fields = {} },
+        { code = "Watchdog Reset", words = true, title = "reset", meaning = "Why the board started.", fields = {} },
+        { code = "Writing to file:", words = true, title = "upload begins", meaning = "Answer to M28.", fields = {
+            { key = "", name = "text", kind = "text" },
+        } },
+        { code = "X:", words = true, title = "position", meaning = "Answer to M114, also behind moves of their own; or a report (M154).", fields = {
+            { key = "", name = "X", kind = "number", unit = "mm" },
+            { key = "Y:", name = "Y", kind = "number", unit = "mm" },
+            { key = "Z:", name = "Z", kind = "number", unit = "mm" },
+            { key = "E:", name = "E", kind = "number", unit = "mm" },
+            { key = "Count", name = "steps", kind = "text" },
+        } },
         { code = "byte", words = true, title = "SD progress", meaning = "ChiTu 4.4.3: the place in the file, and its size.", fields = {
             { key = "", name = "text", kind = "text" },
         } },
         { code = "chitu_initial_file_autorun!", words = true, title = "no start-up file", meaning = "Of the console at power-on.", fields = {} },
+        { code = "echo:", words = true, title = "message", meaning = "For the user.", fields = {
+            { key = "", name = "text", kind = "text" },
+        } },
+        { code = "echo:Now fresh file:", words = true, title = "file chosen", meaning = "Ahead of what M23 and M28 say.", fields = {
+            { key = "", name = "text", kind = "text" },
+        } },
+        { code = "echo:Unknown command:", words = true, title = "unknown command", meaning = "The board does not know it.", fields = {
+            { key = "", name = "text", kind = "text" },
+        } },
+        { code = "echo:busy:", words = true, title = "busy", meaning = "The board is at work, or waits for its user; it has heard.", fields = {
+            { key = "", name = "text", kind = "text" },
+        } },
         { code = "ok", words = true, title = "acknowledged", meaning = "The request was taken; what it asked for stands behind.", fields = {
             { key = "", name = "text", kind = "text" },
+        } },
+        { code = "ok B:", words = true, title = "status", meaning = "Answer to M4000.", fields = {
+            { key = "", name = "bed", kind = "number", unit = "°C" },
+            { key = "/", name = "target", kind = "number", unit = "°C" },
+            { key = "E1:", name = "nozzle 1", kind = "number", unit = "°C" },
+            { key = "/", name = "target", kind = "number", unit = "°C" },
+            { key = "E2:", name = "nozzle 2", kind = "number", unit = "°C" },
+            { key = "/", name = "target", kind = "number", unit = "°C" },
+            { key = "X:", name = "X", kind = "number", unit = "mm" },
+            { key = "Y:", name = "Y", kind = "number", unit = "mm" },
+            { key = "Z:", name = "Z", kind = "number", unit = "mm" },
+            { key = "F:", name = "LED fan", kind = "integer", unit = "of 256" },
+            { key = "/", name = "board fan", kind = "integer", unit = "of 256" },
+            { key = "D:", name = "at", kind = "integer", unit = "bytes" },
+            { key = "/", name = "of", kind = "integer", unit = "bytes", meaning = "0: no print" },
+            { key = "/", name = "halted", kind = "integer", meaning = "1 while paused, and without a print" },
+            { key = "T:", name = "print time", kind = "integer", unit = "s" },
+        } },
+        { code = "ok C:", words = true, title = "position", meaning = "Answer to M114.", fields = {
+            { key = "X:", name = "X", kind = "number", unit = "mm" },
+            { key = "Y:", name = "Y", kind = "number", unit = "mm" },
+            { key = "Z:", name = "Z", kind = "number", unit = "mm" },
+            { key = "E:", name = "E", kind = "number", unit = "mm" },
+        } },
+        { code = "ok T:", words = true, title = "temperatures", meaning = "Answer to M105.", fields = {
+            { key = "", name = "nozzle", kind = "number", unit = "°C" },
+            { key = "/", name = "target", kind = "number", unit = "°C" },
+            { key = "B:", name = "bed", kind = "number", unit = "°C" },
+            { key = "/", name = "target", kind = "number", unit = "°C" },
+            { key = "C:", name = "chamber", kind = "number", unit = "°C" },
+            { key = "/", name = "target", kind = "number", unit = "°C" },
+            { key = "T0:", name = "extruder 0", kind = "number", unit = "°C" },
+            { key = "/", name = "target", kind = "number", unit = "°C" },
+            { key = "T1:", name = "extruder 1", kind = "number", unit = "°C" },
+            { key = "/", name = "target", kind = "number", unit = "°C" },
+            { key = "@:", name = "nozzle power", kind = "integer", unit = "of 127" },
+            { key = "B@:", name = "bed power", kind = "integer", unit = "of 127" },
+            { key = "W:", name = "must hold for", kind = "text", meaning = "whole seconds; ? while it is not there" },
         } },
         { code = "open failed, File :", words = true, title = "file not opened", meaning = "Answer to M23.", fields = {
             { key = "", name = "text", kind = "text" },
@@ -295,6 +407,7 @@ local codes = {
             { key = "Z", name = "Z", kind = "number", unit = "mm" },
             { key = "E", name = "E", kind = "number", unit = "mm" },
             { key = "F", name = "feedrate", kind = "number", unit = "mm/min" },
+            { key = "I", name = "move", kind = "integer", values = { [0] = "relative" }, meaning = "of ChiTu's hosts" },
         } },
         { code = "G1", title = "move", meaning = "Move, extruding or not.", answer = "L1", fields = {
             { key = "X", name = "X", kind = "number", unit = "mm" },
@@ -302,6 +415,7 @@ local codes = {
             { key = "Z", name = "Z", kind = "number", unit = "mm" },
             { key = "E", name = "E", kind = "number", unit = "mm" },
             { key = "F", name = "feedrate", kind = "number", unit = "mm/min" },
+            { key = "I", name = "move", kind = "integer", values = { [0] = "relative" }, meaning = "of ChiTu's hosts" },
         } },
         { code = "G2", title = "arc", meaning = "Move on an arc, clockwise.", answer = "L1", fields = {
             { key = "X", name = "X", kind = "number", unit = "mm" },
@@ -388,6 +502,17 @@ local codes = {
         { code = "M33", title = "stop", meaning = "ChiTu: stops the print.", answer = "ok N:", fields = {
             { key = "I", name = "unknown", kind = "number" },
         } },
+        { code = "M48", title = "probe repeatability", meaning = "Probes one place again and again.", answer = "Mean:", fields = {
+            { key = "", name = "text", kind = "text" },
+        } },
+        { code = "M73", title = "set progress", meaning = "The slicer's own word for how far the print is.", answer = "ok", fields = {
+            { key = "P", name = "progress", kind = "number", unit = "%" },
+            { key = "R", name = "left", kind = "number", unit = "min" },
+        } },
+        { code = "M75", title = "start the print's timer", meaning = "For the statistics.", answer = "ok", fields = {} },
+        { code = "M76", title = "pause the print's timer", meaning = "For the statistics; a host may pause as well.", answer = "ok", fields = {} },
+        { code = "M77", title = "stop the print's timer", meaning = "For the statistics.", answer = "ok", fields = {} },
+        { code = "M78", title = "print statistics", meaning = "How many prints, how long, how much filament.", answer = "Stats:", fields = {} },
         { code = "M82", title = "absolute extrusion", meaning = "E names an end.", fields = {} },
         { code = "M83", title = "relative extrusion", meaning = "E names a length.", fields = {} },
         { code = "M84", title = "motors off", meaning = "As M18.", answer = "L3", fields = {
@@ -425,14 +550,29 @@ local codes = {
             { key = "N", name = "number", kind = "number" },
         } },
         { code = "M112", title = "emergency stop", meaning = "Heaters and motors off, the job ends.", answer = "L3", fields = {} },
+        { code = "M113", title = "keepalive", meaning = "How often a waiting host is told so.", answer = "ok", fields = {
+            { key = "S", name = "every", kind = "number", unit = "s", meaning = "0: never" },
+        } },
         { code = "M114", title = "position query", meaning = "Ask for the position.", answer = "L1", fields = {} },
         { code = "M115", title = "identity query", meaning = "Ask for names and versions.", answer = "L9", fields = {} },
         { code = "M117", title = "message", meaning = "Show a text on the screen.", answer = "L14", fields = {
             { key = "", name = "message", kind = "text" },
         } },
+        { code = "M118", title = "say", meaning = "The board says the text.", answer = "the text", fields = {
+            { key = "", name = "text", kind = "text" },
+        } },
+        { code = "M125", title = "park and pause", meaning = "The head parks and the board waits for its user.", answer = "ok", fields = {
+            { key = "", name = "text", kind = "text" },
+        } },
         { code = "M140", title = "bed", meaning = "Set the bed's target.", answer = "L2", fields = {
             { key = "S", name = "target", kind = "number", unit = "°C", meaning = "0: off" },
             { key = "T", name = "extruder", kind = "integer" },
+        } },
+        { code = "M154", title = "position reports", meaning = "The position comes by itself.", answer = "ok", fields = {
+            { key = "S", name = "every", kind = "number", unit = "s", meaning = "0: never" },
+        } },
+        { code = "M155", title = "temperature reports", meaning = "Temperatures come by themselves.", answer = "ok", fields = {
+            { key = "S", name = "every", kind = "number", unit = "s", meaning = "0: never" },
         } },
         { code = "M163", title = "mixing weight", meaning = "Set one weight of the mix being made.", fields = {
             { key = "S", name = "extruder", kind = "integer" },
@@ -486,6 +626,9 @@ local codes = {
             { key = "S", name = "least", kind = "number", unit = "mm/s" },
             { key = "T", name = "least travel", kind = "number", unit = "mm/s" },
         } },
+        { code = "M211", title = "soft end stops", meaning = "Whether moves end at the volume's borders.", answer = "ok", fields = {
+            { key = "S", name = "recovery", kind = "flag", values = { [0] = "off", [1] = "on" } },
+        } },
         { code = "M220", title = "print speed", meaning = "Scale all feedrates.", answer = "L5 by the document; A30T boards show it in L2", fields = {
             { key = "S", name = "speed", kind = "integer", unit = "%", meaning = "10..999" },
         } },
@@ -499,10 +642,51 @@ local codes = {
             { key = "S", name = "pitch", kind = "number", unit = "Hz" },
             { key = "P", name = "time", kind = "number", unit = "ms" },
         } },
+        { code = "M301", title = "nozzle PID", meaning = "The controller's constants.", answer = "ok", fields = {
+            { key = "P", name = "P", kind = "number" },
+            { key = "I", name = "I", kind = "number" },
+            { key = "D", name = "D", kind = "number" },
+        } },
+        { code = "M302", title = "cold extrusion", meaning = "How warm a nozzle must be for filament to move.", answer = "ok", fields = {
+            { key = "S", name = "least", kind = "number", unit = "°C" },
+            { key = "P", name = "cold extrusion", kind = "flag", values = { [0] = "off", [1] = "on" } },
+        } },
+        { code = "M303", title = "PID tuning", meaning = "Finds the constants of a heater's controller.", answer = "PID Autotune start", fields = {
+            { key = "E", name = "heater", kind = "integer", meaning = "-1: the bed" },
+            { key = "S", name = "target", kind = "number", unit = "°C" },
+            { key = "C", name = "cycles", kind = "integer" },
+            { key = "U", name = "use the result", kind = "word" },
+        } },
+        { code = "M304", title = "bed PID", meaning = "The controller's constants.", answer = "ok", fields = {
+            { key = "P", name = "P", kind = "number" },
+            { key = "I", name = "I", kind = "number" },
+            { key = "D", name = "D", kind = "number" },
+        } },
+        { code = "M306", title = "model predictive control", meaning = "Constants of the nozzle's model, or T: finds them.", answer = "ok", fields = {
+            { key = "", name = "text", kind = "text" },
+        } },
         { code = "M400", title = "finish moves", meaning = "Wait until all moves are done.", fields = {} },
+        { code = "M410", title = "quick stop", meaning = "Drops all moves, at once.", answer = "ok", fields = {} },
+        { code = "M412", title = "runout sensor", meaning = "Whether the sensor ends a print without filament.", answer = "ok", fields = {
+            { key = "S", name = "sensor", kind = "flag", values = { [0] = "off", [1] = "on" } },
+            { key = "D", name = "distance", kind = "number", unit = "mm" },
+        } },
+        { code = "M413", title = "power-loss recovery", meaning = "Whether a print can be taken up again after a power cut.", answer = "ok", fields = {
+            { key = "S", name = "recovery", kind = "flag", values = { [0] = "off", [1] = "on" } },
+        } },
+        { code = "M420", title = "leveling", meaning = "Switches the mesh on and off, or shows it.", answer = "ok", fields = {
+            { key = "S", name = "leveling", kind = "flag", values = { [0] = "off", [1] = "on" } },
+            { key = "Z", name = "fade height", kind = "number", unit = "mm" },
+            { key = "V", name = "print the mesh", kind = "word" },
+        } },
+        { code = "M486", title = "cancel objects", meaning = "Objects of a print are left out from here on.", answer = "ok", fields = {
+            { key = "", name = "text", kind = "text" },
+        } },
         { code = "M500", title = "save settings", meaning = "Write the settings to the EEPROM.", fields = {} },
         { code = "M501", title = "load settings", meaning = "Read the settings from the EEPROM.", fields = {} },
         { code = "M502", title = "factory settings", meaning = "Set all settings to their defaults.", fields = {} },
+        { code = "M503", title = "settings query", meaning = "Every setting as a command that sets it.", answer = "all settings", fields = {} },
+        { code = "M524", title = "stop the print", meaning = "The print from the card ends.", answer = "ok", fields = {} },
         { code = "M600", title = "change filament", meaning = "Stop for a change of filament.", answer = "L3", fields = {
             { key = "E", name = "retract", kind = "number", unit = "mm" },
             { key = "L", name = "unload", kind = "number", unit = "mm" },
@@ -510,6 +694,32 @@ local codes = {
             { key = "Y", name = "Y", kind = "number", unit = "mm" },
             { key = "Z", name = "lift", kind = "number", unit = "mm" },
         } },
+        { code = "M701", title = "load filament", meaning = "Moves filament in, and asks whether to purge more.", answer = "ok", fields = {
+            { key = "", name = "text", kind = "text" },
+        } },
+        { code = "M702", title = "unload filament", meaning = "Moves filament out.", answer = "ok", fields = {
+            { key = "", name = "text", kind = "text" },
+        } },
+        { code = "M808", title = "repeat marker", meaning = "A file goes back to it so often.", answer = "ok", fields = {
+            { key = "", name = "text", kind = "text" },
+        } },
+        { code = "M851", title = "probe offset", meaning = "Where the probe is, seen from the nozzle.", answer = "ok", fields = {
+            { key = "X", name = "X", kind = "number", unit = "mm" },
+            { key = "Y", name = "Y", kind = "number", unit = "mm" },
+            { key = "Z", name = "Z", kind = "number", unit = "mm" },
+        } },
+        { code = "M876", title = "answer a question", meaning = "The host's user has chosen a button.", answer = "ok", fields = {
+            { key = "S", name = "button", kind = "integer", meaning = "0 is the first" },
+        } },
+        { code = "M900", title = "linear advance", meaning = "The extruder's lead.", answer = "ok", fields = {
+            { key = "K", name = "K", kind = "number" },
+        } },
+        { code = "M928", title = "log to a file", meaning = "What comes is written to a file and carried out.", answer = "ok", fields = {
+            { key = "", name = "text", kind = "text" },
+        } },
+        { code = "M997", title = "restart", meaning = "The board starts anew.", answer = "ok", fields = {} },
+        { code = "M999", title = "go on after a stop", meaning = "The board takes commands again.", answer = "Resend:", fields = {} },
+        { code = "M1000", title = "take the print up again", meaning = "After a power cut.", answer = "ok", fields = {} },
         { code = "M2011", title = "home offset", meaning = "Change the home offset of one of two Z motors.", answer = "L24 P6", fields = {
             { key = "P", name = "motor", kind = "integer", values = { [0] = "Z0", [1] = "Z1" } },
             { key = "S", name = "offset", kind = "number", unit = "mm", meaning = "added to the present one; 0 clears it" },

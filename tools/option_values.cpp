@@ -3,6 +3,10 @@
 #include <CLI/Error.hpp>
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
+#include <charconv>
+
+#include "emulator/link/host_port.h"
+#include "emulator/link/link.h"
 
 namespace fauxboard::tools {
 
@@ -51,6 +55,31 @@ void add_web(CLI::App& command, std::optional<std::string>& web) {
         ->type_name("[HOST:PORT[/SECRET]]")
         ->expected(0, 1)
         ->default_str("");
+}
+
+void add_seed(CLI::App& command, std::uint64_t& seed, const std::string& help) {
+    command
+        .add_option_function<std::string>(
+            "--seed",
+            [&seed](const std::string& text) {
+                const char* const end = text.data() + text.size();
+                const auto read = std::from_chars(text.data(), end, seed);
+                if (read.ec != std::errc{} || read.ptr != end) {
+                    throw CLI::ValidationError(
+                        "--seed", "'" + text + "' is no seed; expected a whole number of up to 64 bits");
+                }
+            },
+            help + " (default: " + std::to_string(seed) + ")")
+        ->type_name("N");
+}
+
+std::string wrong_address(const std::string& text) {
+    try {
+        static_cast<void>(link::parse_host_port(text));
+        return {};
+    } catch (const link::LinkError& error) {
+        return error.what();
+    }
 }
 
 CLI::Option* add_baud(CLI::App& command, unsigned& baud, const std::string& help) {

@@ -20,6 +20,12 @@ void add_speed(CLI::App& command, host::Speed& speed, bool may_jump);
 /// --web [HOST:PORT[/TOKEN]].
 void add_web(CLI::App& command, std::optional<std::string>& web);
 
+/// --seed: any 64 bits.
+void add_seed(CLI::App& command, std::uint64_t& seed, const std::string& help);
+
+/// What is wrong with HOST:PORT, before anybody tries to open it; empty for nothing.
+std::string wrong_address(const std::string& text);
+
 /// --baud: 50 to 4 million bits per second.
 CLI::Option* add_baud(CLI::App& command, unsigned& baud, const std::string& help);
 

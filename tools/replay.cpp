@@ -15,6 +15,7 @@
 #include "emulator/record/compare.h"
 #include "emulator/record/plot.h"
 #include "tools/batch.h"
+#include "tools/option_values.h"
 #include "tools/report.h"
 
 namespace fauxboard::tools {
@@ -144,16 +145,16 @@ void add_replay(CLI::App& app, ExitCode& exit) {
     const auto arguments = std::make_shared<ReplayArguments>();
     command->add_option("--profile", arguments->profile, "The board: a name (see `profiles`) or a file")
         ->capture_default_str();
-    command->add_option("--seed", arguments->options.seed, "Start of the random sequence")
-        ->capture_default_str();
+    add_seed(*command, arguments->options.seed, "Start of the random sequence");
     command->add_option("--sd", arguments->sd,
                         "Folder that is the board's SD card or stick, to be read and written");
     command->add_option("capture", arguments->capture, "The recording, JSON lines")->required();
     CLI::Option* compare = command->add_flag(
         "--compare", arguments->compare,
         "Report instead how our lines differ from the recorded board's; exit code 1 when too much");
-    command->add_option("--plot", arguments->plot,
-                        "Draw the curves instead, recorded against replayed: an SVG for any browser")
+    command
+        ->add_option("--plot", arguments->plot,
+                     "Draw the curves instead, recorded against replayed: an SVG for any browser")
         ->type_name("FILE.svg");
     command->add_flag("--json", arguments->json, "The report as one JSON object")->needs(compare);
     command->callback([arguments, &exit] { exit = guarded(*arguments); });

@@ -24,6 +24,7 @@
 #include "emulator/panel/panel.h"
 #include "tools/board_unit.h"
 #include "tools/commands.h"
+#include "tools/profile_changes.h"
 #include "tools/report.h"
 #include "tools/run_options.h"
 #include "tools/run_script.h"
@@ -83,6 +84,7 @@ class Run {
     link::Timer ready_retry_{loop_, [this] { see_ready_off(); }};
     link::Signals signals_;
     host::ProfileWatch watch_;
+    ProfileChanges changes_{options_.profile};
 };
 
 void Run::set_up() {
@@ -104,11 +106,11 @@ void Run::open_script() {
     if (!scenario_) {
         return;
     }
-    script_.emplace(host::ScriptHost::Parts{
-                        unit_.live(), unit_.clock(), &unit_.faults(), unit_.plug(), [this] { loop_.stop(); },
-                        [this](std::string_view text) { unit_.say(board::Level::info, text); },
-                        unit_.display()},
-                    scenario_, options_.speed);
+    script_.emplace(
+        host::ScriptHost::Parts{
+            unit_.live(), unit_.clock(), &unit_.faults(), unit_.plug(), [this] { loop_.stop(); },
+            [this](std::string_view text) { unit_.say(board::Level::info, text); }, unit_.display()},
+        scenario_, options_.speed);
     observers_.add(*script_);
     if (unit_.target() != nullptr) {
         unit_.target()->show(script_->player());
@@ -143,11 +145,11 @@ void Run::say_ready() {
         observers_.add(json_);  // not before: the ready line is the first
     }
     const behaviour::Profile& profile = *unit_.profile();
-    err_.write(
-        fmt::format("This is fauxboard, an emulator: there is no real printer here.\n"
-                    "{}{}. Ctrl-C ends it.\n{}",
-                    profile.title.empty() ? profile.name : profile.title, unit_.where(),
-                    panel_ ? "To look at it, open " + panel_->address() + "\n" : std::string()));
+    err_.write(fmt::format(
+        "This is fauxboard, an emulator: there is no real printer here.\n"
+        "{}{}. Ctrl-C ends it.\n{}",
+        profile.title.empty() ? profile.name : fmt::format("{} ({})", profile.title, profile.name),
+        unit_.where(), panel_ ? "To look at it, open " + panel_->address() + "\n" : std::string()));
 }
 
 void Run::watch_profile() {
@@ -175,7 +177,8 @@ void Run::see_ready_off() {
 void Run::warn_of_network() {
     for (const std::string& path : unit_.network_paths()) {
         if (link::reaches_network(path)) {
-            unit_.say(board::Level::warning,
+            unit_.say(
+                board::Level::warning,
                 fmt::format("{} can be reached from other computers; whoever reaches it can drive this board",
                             path));
         }
@@ -187,7 +190,7 @@ void Run::reload() {
         auto profile = host::load_profile_by_name(options_.profile);
         watch_.watch(profile->files);
         unit_.reload(std::move(profile));
-        unit_.say(board::Level::info, "the changed profile is in force");
+        unit_.say(board::Level::info, "the changed profile is in force" + changes_.what_waits());
     } catch (const behaviour::ProfileError& error) {
         unit_.say(board::Level::error, "the changed profile is wrong, the one before stays in force:");
         for (const behaviour::Problem& problem : error.problems()) {
@@ -195,8 +198,8 @@ void Run::reload() {
         }
     } catch (const std::exception& error) {  // of the system: out of memory, say
         unit_.say(board::Level::error,
-            fmt::format("the changed profile cannot be loaded ({}), the one before stays in force",
-                        error.what()));
+                  fmt::format("the changed profile cannot be loaded ({}), the one before stays in force",
+                              error.what()));
     }
 }
 
@@ -249,7 +252,7 @@ ExitCode run(RunOptions& options) {
     } catch (const link::HostError& error) {
         return complain("run", ExitCode::bad_input, error.what());
     } catch (const fault::FaultSpecError& error) {
-        return complain("run", ExitCode::bad_input, error.what());
+        return complain("run", ExitCode::usage, error.what());
     } catch (const link::LinkError& error) {
         return complain("run", ExitCode::no_port, error.what());
     }

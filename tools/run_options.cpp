@@ -15,7 +15,8 @@ void declare_line(CLI::App& command, RunOptions& options) {
             ->type_name("DEV|auto");
     CLI::Option* tcp =
         command.add_option("--tcp", options.tcp, "Listen for one client instead; port 0 takes a free one")
-            ->type_name("HOST:PORT");
+            ->type_name("HOST:PORT")
+            ->check(wrong_address, "", "");
     CLI::Option* pty = command
                            .add_option("--pty", options.pty_name,
                                        "A pseudo-terminal (the default), with a name of your choice")
@@ -27,7 +28,8 @@ void declare_line(CLI::App& command, RunOptions& options) {
         .add_option(
             "--udp", options.udp,
             "The board's network module beside the line: datagrams on this port (the boards have 3000)")
-        ->type_name("HOST:PORT");
+        ->type_name("HOST:PORT")
+        ->check(wrong_address, "", "");
     add_baud(command, options.baud, "Bits per second (default: the profile's)");
     command.add_flag_callback(
         "--no-pacing", [&options] { options.pacing = false; },
@@ -88,7 +90,8 @@ void declare_host_line(CLI::App& command, RunOptions& options) {
         command.add_option("--host-port", options.host.port, "The same on a serial port")->type_name("DEV");
     CLI::Option* tcp =
         command.add_option("--host-tcp", options.host.tcp, "The same for one client of a socket")
-            ->type_name("HOST:PORT");
+            ->type_name("HOST:PORT")
+            ->check(wrong_address, "", "");
     pty->excludes(port)->excludes(tcp);
     port->excludes(tcp);
     command.add_option("--host-baud", options.host.baud, "Bits per second of --host-port")
@@ -101,9 +104,7 @@ void declare_host_line(CLI::App& command, RunOptions& options) {
 void declare_time(CLI::App& command, RunOptions& options) {
     add_speed(command, options.speed, true);
     add_duration(command, options.duration, "Stop after this virtual time");
-    command.add_option("--seed", options.seed, "Of all noise: the same seed and input give the same bytes")
-        ->type_name("N")
-        ->check(CLI::NonNegativeNumber);
+    add_seed(command, options.seed, "Of all noise: the same seed and input give the same bytes");
 }
 
 void declare_talk(CLI::App& command, RunOptions& options) {

@@ -83,7 +83,7 @@ std::shared_ptr<const script::Scenario> plan_script(RunOptions& options) {
     if (options.screen.empty() && !options.line_given) {
         options.screen = head.screen;
     }
-    const script::Cast cast = host::make_cast(options.profile, options.screen);
+    const script::Cast cast = host::make_cast(options.profile, options.screen, &source);
     script::Arguments arguments;
     for (const std::string& each : options.params) {
         const std::size_t sign = each.find('=');

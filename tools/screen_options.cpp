@@ -34,7 +34,9 @@ void declare_screen_options(CLI::App& command, ScreenOptions& options) {
     CLI::Option_group* line = command.add_option_group("line", "Where the board is");
     line->add_option("--port", options.port, "Serial port, pseudo-terminal, or 'auto'")
         ->type_name("DEV|auto");
-    line->add_option("--tcp", options.tcp, "Connect to a socket")->type_name("HOST:PORT");
+    line->add_option("--tcp", options.tcp, "Connect to a socket")
+        ->type_name("HOST:PORT")
+        ->check(wrong_address, "", "");
     line->add_option(
             "--control", options.control,
             "The screen that is part of a board, at its control channel (as given to `run --control`)")

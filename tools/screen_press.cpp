@@ -23,7 +23,8 @@ bool page_has_rows(const screen::ScreenProfile& profile, std::size_t page) {
                        [&](std::size_t id) { return profile.buttons[id].rows.has_value(); });
 }
 
-/// What is wrong with a path before anything is sent; "" for nothing. Once a page with a list has been opened
+/// What is wrong with a path before anything is sent; "" for nothing. Tells when a word might have meant
+/// another button. Once a page with a list has been opened
 /// a path may be an entry of that list, which nobody knows yet.
 std::string objection(const screen::ScreenProfile& profile, const std::vector<std::string>& paths) {
     const auto values = profile.values.power_on();
@@ -34,6 +35,11 @@ std::string objection(const screen::ScreenProfile& profile, const std::vector<st
             return page_has_rows(profile, page) ? std::string{} : meant.sentence;
         }
         const screen::Button& button = profile.buttons[*meant.button];
+        if (const auto others = screen::also_ending(profile, *meant.button, path); !others.empty()) {
+            complain("screen", ExitCode::ok,
+                     fmt::format("\"{}\" is taken as \"{}\"; there are {}, too", path, button.path,
+                                 fmt::join(others, ", ")));
+        }
         if (button.page != screen::no_page) page = button.page;
         const screen::Standpoint at{profile, values, page, page};
         page = at.destination(button.leads_to, at.scope(button, 1)).value_or(page);
@@ -88,8 +94,12 @@ class Press final : public ScreenWalk {
     SimTime on_done(SimTime) override {
         const bool all = tour()->passed();
         session().finish(all ? ExitCode::ok : ExitCode::failed);
-        if (!all) {
-            complain("screen", ExitCode::failed, results().back().sentence);
+        if (const auto wrong = std::find_if(
+                results().begin(), results().end(),
+                [](const screen::TourResult& one) { return one.verdict != screen::TourVerdict::met; });
+            wrong != results().end()) {
+            complain("screen", ExitCode::failed,
+                     fmt::format("{}: {}", screen::tour_verdict_words(wrong->verdict), wrong->sentence));
         }
         return machine::never;
     }

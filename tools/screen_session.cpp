@@ -7,6 +7,7 @@
 #include "emulator/host/screen_files.h"
 #include "emulator/link/host_error.h"
 #include "emulator/link/ports.h"
+#include "tools/patience.h"
 #include "tools/report.h"
 
 namespace fauxboard::tools {
@@ -39,6 +40,7 @@ std::unique_ptr<link::Link> ScreenSession::make_link() {
         return link::make_tcp_connect_link(loop_, options_.tcp);
     }
     const std::string port = options_.port == "auto" ? link::pick_auto_port() : options_.port;
+    wait_for_port(port);
     return link::make_port_link(loop_, port, options_.baud);
 }
 

@@ -19,6 +19,7 @@
 #include "emulator/link/ports.h"
 #include "protocol/annotate.h"
 #include "tools/option_values.h"
+#include "tools/patience.h"
 #include "tools/report.h"
 
 namespace fauxboard::tools {
@@ -174,6 +175,9 @@ ExitCode send(const SendOptions& options) {
     try {
         link::EventLoop loop;
         const std::string port = options.port == "auto" ? link::pick_auto_port() : options.port;
+        if (options.tcp.empty()) {
+            wait_for_port(port);
+        }
         const std::unique_ptr<link::Link> link = options.tcp.empty()
                                                      ? link::make_port_link(loop, port, options.baud)
                                                      : link::make_tcp_connect_link(loop, options.tcp);
@@ -192,7 +196,9 @@ void add_send(CLI::App& app, ExitCode& exit) {
     CLI::Option_group* line = command->add_option_group("line", "Where the board is");
     line->add_option("--port", options->port, "Serial port, pseudo-terminal, or 'auto'")
         ->type_name("DEV|auto");
-    line->add_option("--tcp", options->tcp, "Connect to a socket")->type_name("HOST:PORT");
+    line->add_option("--tcp", options->tcp, "Connect to a socket")
+        ->type_name("HOST:PORT")
+        ->check(wrong_address, "", "");
     line->require_option(1);
     add_baud(*command, options->baud, "Bits per second (115200)");
     command->add_flag("--bare", options->bare, "Send as it is, without prefix and checksum");

@@ -12,6 +12,7 @@
 #include "emulator/host/screen_files.h"
 #include "emulator/world/invariants.h"
 #include "emulator/world/play.h"
+#include "tools/option_values.h"
 #include "tools/report.h"
 
 namespace fauxboard::tools {
@@ -128,8 +129,7 @@ void add_soak(CLI::App& app, ExitCode& exit) {
     command->add_option("--years", options->years, "Of virtual time, at least")
         ->check(CLI::Range(0.0, 1e6))
         ->capture_default_str();
-    command->add_option("--seed", options->seed, "Of the first world; the next has the next")
-        ->capture_default_str();
+    add_seed(*command, options->seed, "Of the first world; the next has the next");
     command->add_option("--steps", options->steps, "Things that happen in one world")
         ->check(CLI::Range(1, 1'000'000))
         ->capture_default_str();

@@ -228,7 +228,7 @@ ExitCode tap(const TapOptions& options) {
     } catch (const link::HostError& error) {
         return complain("tap", ExitCode::bad_input, error.what());
     } catch (const fault::FaultSpecError& error) {
-        return complain("tap", ExitCode::bad_input, error.what());
+        return complain("tap", ExitCode::usage, error.what());
     } catch (const link::LinkError& error) {
         return complain("tap", ExitCode::no_port, error.what());
     }

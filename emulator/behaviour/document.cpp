@@ -313,6 +313,23 @@ Document parse_document(const SourceText& source) {
     return document;
 }
 
+namespace {
+
+std::optional<SourceText> extended(const Document& top, const std::string& name, const SourceFinder& find) {
+    try {
+        if (auto found = find(name, top.files.front())) {
+            return found;
+        }
+    } catch (const UnknownSource& unknown) {
+        Problem problem = top.problem("/extends", unknown.what());
+        problem.nearest = unknown.nearest;
+        throw ProfileError({problem});
+    }
+    throw ProfileError({top.problem("/extends", "there is no profile \"" + name + '"')});
+}
+
+}  // namespace
+
 Document load_document(const SourceText& source, const SourceFinder& find) {
     std::vector<Document> chain;
     chain.push_back(parse_document(source));
@@ -325,11 +342,7 @@ Document load_document(const SourceText& source, const SourceFinder& find) {
         if (chain.size() == max_chain) {
             throw ProfileError({top.problem("/extends", "more than 8 profiles extend one another")});
         }
-        const auto parent = find(name.get_ref<const std::string&>(), top.files.front());
-        if (!parent) {
-            throw ProfileError(
-                {top.problem("/extends", "there is no profile \"" + name.get<std::string>() + '"')});
-        }
+        const auto parent = extended(top, name.get<std::string>(), find);
         const bool circle = std::any_of(chain.begin(), chain.end(),
                                         [&](const Document& d) { return d.files.front() == parent->name; });
         if (circle) {

@@ -99,8 +99,14 @@ SetResult set_field(machine::Machine& machine, const Field& field, const Value& 
         return SetResult::refused;
     }
     const double inside = std::clamp(value.number, field.min, field.max);
-    field.set(machine, Value::of(as_type(field.type, inside)));
-    return inside == value.number ? SetResult::done : SetResult::clamped;
+    const double wanted = as_type(field.type, inside);
+    field.set(machine, Value::of(wanted));
+    // The machine may allow less than the field, and keeps some numbers as floats.
+    constexpr double slack = 1e-3;
+    const double kept = field.get(machine).number;
+    const bool as_asked =
+        inside == value.number && std::abs(kept - wanted) <= slack * std::max(1.0, std::abs(wanted));
+    return as_asked ? SetResult::done : SetResult::clamped;
 }
 
 }  // namespace fauxboard::behaviour

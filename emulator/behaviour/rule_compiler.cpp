@@ -118,6 +118,12 @@ void RuleCompiler::condition_tests(const Condition& base, const Json& node, cons
                 c.right[side] = Operand::literal(bound);
             }
         }
+        const Operand& min = c.right[0];
+        const Operand& max = c.right[1];
+        if (min.kind != Operand::Kind::none && max.kind != Operand::Kind::none && min.number > max.number) {
+            findings_.add(pointer,
+                          fmt::format("min {} is above max {}: this never holds", min.number, max.number));
+        }
         out.push_back(std::move(c));
     }
     if (reader.has("present")) {
@@ -331,7 +337,15 @@ Rule RuleCompiler::rule(const Json& node, const std::string& pointer) {
 
 std::vector<Rule> RuleCompiler::rules(const Json& node, const std::string& pointer) {
     std::vector<Rule> out;
-    each(node, pointer, [&](const Json& item, const std::string& at) { out.push_back(rule(item, at)); });
+    bool always = false;  // the one before needs nothing: the first that holds is the one that is carried out
+    each(node, pointer, [&](const Json& item, const std::string& at) {
+        if (always) {
+            findings_.add(at, "this rule is never reached: the one before it holds always");
+        }
+        out.push_back(rule(item, at));
+        const auto when = item.is_object() ? item.find("when") : item.end();
+        always = item.is_object() && (when == item.end() || when->empty());
+    });
     return out;
 }
 

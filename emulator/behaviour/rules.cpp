@@ -1,5 +1,7 @@
 #include "emulator/behaviour/rules.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -32,6 +34,10 @@ bool Condition::holds(const Scope& scope) const {
 
 namespace {
 
+std::string shown(const Value& value) {
+    return value.is_text() ? fmt::format("\"{}\"", value.text) : fmt::format("{}", value.number);
+}
+
 void assign(const ActionCall& call, const Scope& scope, const std::vector<VariableInfo>& variables,
             ActionContext& context) {
     Value value = call.args[0].evaluate(scope);
@@ -53,7 +59,8 @@ void assign(const ActionCall& call, const Scope& scope, const std::vector<Variab
             break;
         case SetResult::clamped:
             context.notices.notice(Level::info,
-                                   std::string(call.field->path) + ": value kept within its bounds");
+                                   fmt::format("{}: {} is beyond its bounds; taken as {}", call.field->path,
+                                               shown(value), shown(call.field->get(context.machine))));
             break;
         case SetResult::refused:
             context.notices.notice(Level::warning, std::string(call.field->path) + ": value refused");

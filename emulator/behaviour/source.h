@@ -47,8 +47,16 @@ struct SourceText {
     std::string text;
 };
 
+/// Thrown by a finder that knows better than "no": what there is instead.
+struct UnknownSource : std::runtime_error {
+    UnknownSource(const std::string& message, std::string_view like)
+        : std::runtime_error(message), nearest(like) {}
+    std::string nearest;
+};
+
 /// Finds the source of a profile: by name ("smartto-base"), or by path; `from` is the file that extends it,
-/// empty for the first. Nothing when there is none. The only way in which the core reads files.
+/// empty for the first. Nothing when there is none, or UnknownSource. The only way in which the core reads
+/// files.
 using SourceFinder = std::function<std::optional<SourceText>(std::string_view name, std::string_view from)>;
 
 }  // namespace fauxboard::behaviour

@@ -34,11 +34,11 @@ bool in_group(std::string_view name, std::string_view group) {
             names.push_back(std::string_view(place.name).substr(0, dot));
         }
     }
-    throw ControlError(ErrorCode::unknown_field,
-                       fmt::format("There is no field or variable \"{}\"; {{\"op\": \"describe\", \"what\": "
-                                   "\"fields\"}} lists them.",
-                                   name.substr(0, 100)),
-                       behaviour::nearest(name, names));
+    throw ControlError(
+        ErrorCode::unknown_field,
+        fmt::format("There is no field or variable \"{}\"; `fauxboard describe fields` lists them.",
+                    name.substr(0, 100)),
+        behaviour::nearest(name, names));
 }
 
 struct Bounds {

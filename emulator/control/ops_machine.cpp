@@ -38,8 +38,7 @@ constexpr SimTime latest_time = std::chrono::hours(24 * 366 * 100);
         }
     }
     throw ControlError(ErrorCode::unknown_action,
-                       fmt::format("There is no action \"{}\"; {{\"op\": \"describe\", \"what\": "
-                                   "\"actions\"}} lists them.",
+                       fmt::format("There is no action \"{}\"; `fauxboard describe actions` lists them.",
                                    name.substr(0, 60)),
                        behaviour::nearest(name, names));
 }

@@ -32,10 +32,17 @@ Answer set(const Call& call) {
         places.push_back(find_place(call.board, name));
         todo.push_back(assignment(call.board, places.back(), value));
     }
+    Hub::Listening listening(call.hub);
     for (const behaviour::ActionCall& each : todo) {
-        call.board.act(call.now, each);
+        if (const std::string refusal = call.board.act(call.now, each); !refusal.empty()) {
+            throw ControlError(ErrorCode::refused, refusal + ".");
+        }
     }
-    return Json{{"fields", values_of(call.board, places)}};
+    Json out{{"fields", values_of(call.board, places)}};
+    if (!listening.notices.empty()) {
+        out["notices"] = listening.notices;
+    }
+    return out;
 }
 
 Json frames(const board::Board& board) {

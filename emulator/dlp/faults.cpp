@@ -30,6 +30,8 @@ constexpr std::array line_parameters{
     FaultParameter{"line", number, 0, 0, 2559, "line whose packets always arrive damaged"}};
 constexpr std::array pin_parameters{
     FaultParameter{"level", choice, 0, 0, 1, "what it says: low is bad, high is good", levels}};
+constexpr std::array white_parameters{
+    FaultParameter{"share", percent, 100, 0, 100, "how often it goes wrong; of real ones one in seven"}};
 constexpr std::array switch_only{switch_parameter};
 constexpr std::array slow_parameters{
     FaultParameter{"factor", number, 5, 1, 1000, "how many times as long a picture takes"}};
@@ -88,6 +90,20 @@ constexpr std::array table{
         "the SDRAM behind the FPGA is dead: checksums are good, nothing is stored, the panel is all white",
         {}, "", {}, never, [](Printer& p, Values) { fpga(p, [](auto& t) { t.sdram_stuck = true; }); },
         [](Printer& p, Values) { fpga(p, [](auto& t) { t.sdram_stuck = false; }); }, nullptr),
+    fault_row<Printer>(
+        "panel_white",
+        "the board resets the FPGA without telling it to be quiet first: while a picture was read, its SDRAM "
+        "then comes up dead, and the panel is all white until a clean reset",
+        {}, "", white_parameters, never,
+        [](Printer& p, Values v) {
+            fpga(p, [&](auto& t) { t.unclean_share = v[0] / 100; });
+            p.board.panel.reset_rudely = true;
+        },
+        [](Printer& p, Values) {
+            fpga(p, [](auto& t) { t.unclean_share = FpgaTrouble{}.unclean_share; });
+            p.board.panel.reset_rudely = false;
+        },
+        nullptr),
     fault_row<Printer>(
         "panel_id_missing",
         "the controllers of the UV panel do not answer with their id when the board starts or wakes",

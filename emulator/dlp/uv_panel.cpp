@@ -66,7 +66,7 @@ void UvPanel::packet(SimTime now) {
 }
 
 bool UvPanel::set_up(bool clean, SimTime now) {
-    if (clean) {
+    if (clean && !reset_rudely) {
         command(clean_bank, false, false, now);
     }
     awake_ = false;

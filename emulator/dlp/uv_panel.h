@@ -57,6 +57,7 @@ class UvPanel {
     std::uint32_t lit() const;
 
     bool id_missing = false;
+    bool reset_rudely = false;  ///< the FPGA is never told to be quiet before a reset
     SpiTap* tap = nullptr;
 
   private:

@@ -99,12 +99,15 @@ Json printer_fault_to_json(const machine::Fault& fault) {
             {"over", fault.state == machine::FaultState::over}};
 }
 
+std::string printer_fault_words(const machine::Fault& fault) {
+    return printer_fault_id(fault.number) + ", " + fault_to_text(to_spec(fault.request));
+}
+
 std::string printer_fault_sentence(const machine::Fault& fault) {
     const std::string_view state = fault.state == machine::FaultState::waiting  ? "has not begun"
                                    : fault.state == machine::FaultState::active ? "is in force"
                                                                                 : "is over";
-    return fmt::format("Printer fault {}, {}, {}.", printer_fault_id(fault.number),
-                       fault_to_text(to_spec(fault.request)), state);
+    return fmt::format("Printer fault {}, {}.", printer_fault_words(fault), state);
 }
 
 std::string printer_fault_id(unsigned number) {

@@ -14,7 +14,9 @@ machine::FaultRequest to_request(const FaultSpec& spec);
 /// {"id": "p1", "fault": {"kind": "jam", ...}, "state": "active", "begin": 60.0, "over": false}; "begin" in
 /// seconds of virtual time.
 Json printer_fault_to_json(const machine::Fault& fault);
-/// "Printer fault p1, jam:lost=50, is active."
+/// "p1, jam:lost=50".
+std::string printer_fault_words(const machine::Fault& fault);
+/// "Printer fault p1, jam:lost=50, is in force."
 std::string printer_fault_sentence(const machine::Fault& fault);
 
 /// "p1" and back; 0 for anything else.

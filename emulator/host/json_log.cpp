@@ -68,4 +68,15 @@ void JsonLog::on_link(SimTime now, link::LinkState state, std::string_view why) 
     write(now, fmt::format(R"("link": "{}", "why": {})", link::state_name(state), json_text(why)));
 }
 
+void JsonLog::on_world(SimTime now, std::string_view words) {
+    write(now, fmt::format(R"("done": {})", json_text(words)));
+}
+
+void JsonLog::on_deed(SimTime now, board::Channel channel, const fault::Deed& deed) {
+    const bool to_board = deed.direction == fault::Direction::to_board;
+    write(now, fmt::format(R"("fault": {}, "kind": "{}", "from": "{}", "line": {})", deed.fault, deed.kind,
+                           to_board ? board::other_end(channel) : board::own_end(channel),
+                           json_text(behaviour::from_wire(protocol::mask_secrets(deed.line)))));
+}
+
 }  // namespace fauxboard::host

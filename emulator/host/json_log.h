@@ -15,6 +15,9 @@ namespace fauxboard::host {
 ///     {"t": 12.395678, "from": "board", "line": "...", "words": "..."}
 ///     {"t": 12.400000, "notice": "M999 is not in the profile; ignored", "level": "warning"}
 ///     {"t": 13.000000, "link": "waiting", "why": "the other side closed /dev/pts/5"}
+///     {"t": 13.500000, "done": "filament.remove"}             by a client, a scenario
+///     {"t": 13.600000, "fault": 1, "kind": "drop", "from": "board", "line": "..."}   what a fault did to a
+///     line
 ///     {"t": 14.000000, "left_out": 12}        what nobody took in time, before this
 class JsonLog final : public LiveObserver {
   public:
@@ -25,6 +28,8 @@ class JsonLog final : public LiveObserver {
     void on_sent(SimTime now, board::Channel channel, std::string_view line) override;
     void on_notice(SimTime now, board::Level level, std::string_view text) override;
     void on_link(SimTime now, link::LinkState state, std::string_view why) override;
+    void on_world(SimTime now, std::string_view words) override;
+    void on_deed(SimTime now, board::Channel channel, const fault::Deed& deed) override;
 
   private:
     void write(SimTime now, std::string_view members);

@@ -95,4 +95,11 @@ std::vector<fault::FaultStatus> LineFaults::list() const {
     return out;
 }
 
+fault::FaultId LineFaults::known_as(const fault::FaultControl& line, fault::FaultId id_there) const {
+    const auto entry = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& each) {
+        return each.line == &line && each.id_there == id_there;
+    });
+    return entry == entries_.end() ? id_there : entry->id;  // one that is being added acts at once
+}
+
 }  // namespace fauxboard::host

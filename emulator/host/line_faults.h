@@ -21,6 +21,8 @@ class LineFaults final : public fault::FaultControl {
     bool remove(fault::FaultId id) override;
     void clear() override;
     std::vector<fault::FaultStatus> list() const override;
+    /// The id here of a fault that has another one on its own line.
+    fault::FaultId known_as(const fault::FaultControl& line, fault::FaultId id_there) const;
 
   private:
     struct Entry {

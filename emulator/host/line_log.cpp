@@ -82,16 +82,33 @@ void LineLog::print(SimTime now, Ink ink, std::string_view head, std::string_vie
     StyledLine line(colours_);
     line.add(fmt::format("{:10.3f}  ", machine::to_seconds(now))).add(head, ink, head_width).add("  ");
     if (words.empty()) {
-        line.add(text);
+        line.add(fit(text, text_column));
     } else {
-        if (text.size() > words_column) {
-            line.add(text).end().add("", Ink::plain, text_column);
+        const bool below = text.size() > words_column;
+        if (below) {
+            line.add(fit(text, text_column)).end().add("", Ink::plain, text_column);
         } else {
             line.add(text, Ink::plain, words_column).add("  ");
         }
-        line.add(words, Ink::faint);
+        line.add(fit(words, below ? text_column : text_column + words_column + 2), Ink::faint);
     }
     out_.write(line.end());
+}
+
+std::string LineLog::fit(std::string_view text, std::size_t column) const {
+    constexpr std::size_t least = 20;
+    const std::size_t columns = detail_ == Detail::verbose ? 0 : out_.columns();
+    const std::size_t room = std::max(least, columns - std::min(columns, column));
+    const auto begins = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; };
+    const auto letters = static_cast<std::size_t>(std::count_if(text.begin(), text.end(), begins));
+    if (columns == 0 || letters <= room) {
+        return std::string(text);
+    }
+    std::size_t end = 0;
+    for (std::size_t kept = 0; kept < room; ++end) {  // to where the letter after the last one kept begins
+        kept += begins(text[end]) ? 1 : 0;
+    }
+    return std::string(text.substr(0, end - 1)) + "…";
 }
 
 void LineLog::on_received(SimTime now, board::Channel channel, std::string_view received,
@@ -137,6 +154,24 @@ void LineLog::on_link(SimTime now, link::LinkState, std::string_view why) {
     if (detail_ != Detail::quiet && passes(now)) {
         print(now, Ink::warning, "link", why, "");
     }
+}
+
+void LineLog::on_world(SimTime now, std::string_view words) {
+    if (detail_ != Detail::quiet && passes(now)) {
+        print(now, Ink::faint, "done", words, "");
+    }
+}
+
+void LineLog::on_deed(SimTime now, board::Channel channel, const fault::Deed& deed) {
+    if (detail_ == Detail::quiet || !passes(now)) {
+        return;
+    }
+    const std::string_view peer = other_end(channel);
+    const bool to_board = deed.direction == fault::Direction::to_board;
+    print(now, Ink::error, fmt::format("fault {}", deed.fault),
+          fmt::format("{} {} {}: {}", deed.kind, to_board ? "from" : "to", peer,
+                      behaviour::as_ascii(protocol::mask_secrets(deed.line))),
+          "");
 }
 
 }  // namespace fauxboard::host

@@ -20,6 +20,9 @@ enum class Detail : std::uint8_t {
 /// Prints the talk on the line as it passes, a line each: time in seconds, direction, bytes, words.
 ///
 ///     12.345  screen → board  N-0 M104 S200*106            nozzle: target 200 °C
+///
+/// On a terminal a line is as wide as that, and what is cut off ends with a mark; verbose, and everywhere
+/// else, it is whole.
 class LineLog final : public LiveObserver {
   public:
     /// What the main line's other end is called from here on: "screen" until told.
@@ -34,6 +37,8 @@ class LineLog final : public LiveObserver {
     void on_sent(SimTime now, board::Channel channel, std::string_view line) override;
     void on_notice(SimTime now, board::Level level, std::string_view text) override;
     void on_link(SimTime now, link::LinkState state, std::string_view why) override;
+    void on_world(SimTime now, std::string_view words) override;
+    void on_deed(SimTime now, board::Channel channel, const fault::Deed& deed) override;
     /// Says what has been left out and not been told yet.
     void finish(SimTime now);
 
@@ -54,6 +59,9 @@ class LineLog final : public LiveObserver {
     std::string_view other_end(board::Channel channel) const {
         return channel == board::Channel::main ? std::string_view(peer_) : board::other_end(channel);
     }
+
+    /// What fits behind `column`.
+    std::string fit(std::string_view text, std::size_t column) const;
 
     TextOutput& out_;
     Detail detail_;

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "emulator/board/board.h"
+#include "emulator/fault/fault_line.h"
 #include "emulator/link/link.h"
 
 namespace fauxboard::host {
@@ -14,6 +15,8 @@ class LiveObserver : public board::Observer {
   public:
     /// See link::LinkListener::on_state.
     virtual void on_link(SimTime now, link::LinkState state, std::string_view why) = 0;
+    /// A fault has acted on a line of that channel; see fault::Deed.
+    virtual void on_deed(SimTime /*now*/, board::Channel /*channel*/, const fault::Deed& /*deed*/) {}
 };
 
 /// Several observers as one, told in the order they were added.
@@ -50,6 +53,10 @@ class Observers final : public LiveObserver {
     void on_link(SimTime now, link::LinkState state, std::string_view why) override {
         for (LiveObserver* each : all_)
             each->on_link(now, state, why);
+    }
+    void on_deed(SimTime now, board::Channel channel, const fault::Deed& deed) override {
+        for (LiveObserver* each : all_)
+            each->on_deed(now, channel, deed);
     }
 
   private:

@@ -60,8 +60,11 @@ class LiveTarget final : public LiveObserver, private control::Target, private c
     std::size_t faults_in_force() const;
     /// A changed profile is in force.
     void on_reload() { hub_.on_reload(); }
-    /// See fault::FaultLine::on_deed().
-    void on_spoiled(const fault::Deed& deed) { hub_.on_spoiled(parts_.live.now(), deed); }
+    void on_deed(SimTime now, board::Channel channel, const fault::Deed& deed) override {
+        if (channel == board::Channel::main) {
+            hub_.on_spoiled(now, deed);
+        }
+    }
     /// The run is over: who waits is told so.
     void on_end();
 

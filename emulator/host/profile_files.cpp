@@ -33,6 +33,9 @@ std::optional<behaviour::SourceText> find(std::string_view name, std::string_vie
             return found;
         }
     }
+    if (!from.empty()) {
+        throw unknown_source("profile", name, list_profiles());
+    }
     return std::nullopt;
 }
 
@@ -112,6 +115,15 @@ std::shared_ptr<const behaviour::Profile> load_profile_by_name(std::string_view 
         problem.nearest = std::string(behaviour::nearest(name, names));
     }
     throw behaviour::ProfileError({problem});
+}
+
+behaviour::UnknownSource unknown_source(std::string_view kind, std::string_view name,
+                                        const std::vector<ProfileEntry>& entries) {
+    std::vector<std::string_view> names;
+    for (const ProfileEntry& entry : entries) {
+        names.emplace_back(entry.name);
+    }
+    return {fmt::format("there is no {} \"{}\"", kind, name), behaviour::nearest(name, names)};
 }
 
 std::vector<ProfileEntry> list_profiles() {

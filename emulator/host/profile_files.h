@@ -11,8 +11,8 @@
 namespace fauxboard::host {
 
 /// Where profiles are looked for by name, first hit wins: the folders of the environment variable
-/// FAUXBOARD_PROFILES (parted by ':'), what was installed with the program (found from where the program lies, so the
-/// installed tree can be moved), the folder it was built from.
+/// FAUXBOARD_PROFILES (parted by ':'), what was installed with the program (found from where the program
+/// lies, so the installed tree can be moved), the folder it was built from.
 std::vector<std::filesystem::path> profile_folders();
 /// Those that FAUXBOARD_PROFILES names and that are no folders.
 std::vector<std::filesystem::path> missing_profile_folders();
@@ -39,6 +39,9 @@ struct ProfileEntry {
 };
 /// All profiles in profile_folders(), by name; files that are no profiles are passed over.
 std::vector<ProfileEntry> list_profiles();
+/// That there is none of this name among `entries`, with the nearest that there is.
+behaviour::UnknownSource unknown_source(std::string_view kind, std::string_view name,
+                                        const std::vector<ProfileEntry>& entries);
 /// The same of other folders.
 std::vector<ProfileEntry> list_profiles(const std::vector<std::filesystem::path>& folders);
 

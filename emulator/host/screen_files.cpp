@@ -26,6 +26,9 @@ std::optional<behaviour::SourceText> find(std::string_view name, std::string_vie
             return found;
         }
     }
+    if (!from.empty()) {
+        throw unknown_source("screen", name, list_screens());
+    }
     return std::nullopt;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "emulator/behaviour/document.h"
 #include "emulator/behaviour/nearest.h"
 #include "emulator/host/profile_files.h"
 #include "emulator/host/screen_files.h"
@@ -33,6 +34,25 @@ std::optional<behaviour::SourceText> find(std::string_view name, std::string_vie
         }
     }
     return std::nullopt;
+}
+
+/// A profile or screen that is not there is told where the scenario names it.
+[[noreturn]] void rethrow_with_place(const behaviour::ProfileError& error,
+                                     const behaviour::SourceText* named_in) {
+    if (named_in != nullptr && error.problems().size() == 1) {
+        const behaviour::Problem& first = error.problems().front();
+        const behaviour::Document document = behaviour::parse_document(*named_in);
+        for (const char* key : {"profile", "screen"}) {
+            const auto named = document.root.find(key);
+            if (named != document.root.end() && *named == first.file) {
+                behaviour::Problem placed =
+                    document.problem(std::string("/") + key, "\"" + first.file + "\": " + first.message);
+                placed.nearest = first.nearest;
+                throw behaviour::ProfileError({placed});
+            }
+        }
+    }
+    throw error;
 }
 
 }  // namespace
@@ -71,16 +91,24 @@ behaviour::SourceText find_script(std::string_view name) {
 
 std::shared_ptr<const script::Scenario> check_script(const behaviour::SourceText& source) {
     const script::Head head = script::read_head(source);
-    const script::Cast cast = make_cast(head.profile.empty() ? default_profile : head.profile, head.screen);
+    const script::Cast cast =
+        make_cast(head.profile.empty() ? default_profile : head.profile, head.screen, &source);
     return script::load_scenario(source, script_finder(), cast);
 }
 
-script::Cast make_cast(std::string_view profile, std::string_view screen) {
+script::Cast make_cast(std::string_view profile, std::string_view screen,
+                       const behaviour::SourceText* named_in) {
     script::Cast out;
-    out.profile = load_profile_by_name(profile);
+    try {
+        out.profile = load_profile_by_name(profile);
+        out.screen = screen.empty() ? nullptr : load_screen_by_name(screen);
+    } catch (const behaviour::ProfileError& error) {
+        rethrow_with_place(error, named_in);
+    }
     if (!screen.empty()) {
-        out.screen = load_screen_by_name(screen);
-    } else if (!out.profile->screen.empty()) {
+        return out;
+    }
+    if (!out.profile->screen.empty()) {
         out.screen = load_own_screen(out.profile->screen);
     }
     return out;

@@ -23,8 +23,10 @@ behaviour::SourceText find_script(std::string_view name);
 std::vector<ProfileEntry> list_scripts();
 
 /// A board and the screen that plays with it: the one at its line that is named, else the one that is part of
-/// it. Throws behaviour::ProfileError.
-script::Cast make_cast(std::string_view profile, std::string_view screen);
+/// it. Throws behaviour::ProfileError; of a name that stands in the scenario `named_in`, with its place
+/// there.
+script::Cast make_cast(std::string_view profile, std::string_view screen,
+                       const behaviour::SourceText* named_in = nullptr);
 
 /// Checks a scenario against the board and the screen that it names itself. Throws behaviour::ProfileError.
 std::shared_ptr<const script::Scenario> check_script(const behaviour::SourceText& source);

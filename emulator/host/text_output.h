@@ -35,6 +35,8 @@ class TextOutput {
 
     /// A terminal that shows colours, for a user who has not forbidden them (NO_COLOR).
     bool colours() const;
+    /// Of the terminal that it goes to; 0 for anything else.
+    std::size_t columns() const;
     std::uint64_t left_out() const { return left_out_; }
 
   private:

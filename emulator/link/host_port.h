@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal to emulator/link.
+// How addresses are written; for emulator/link, and for a command line that looks at one beforehand.
 
 #include <cstdint>
 #include <string>

@@ -26,6 +26,10 @@ struct Resolved {
 Resolved resolve(const ScreenProfile& profile, std::span<const Shown> values, std::size_t page,
                  std::string_view path);
 
+/// Buttons whose name ends with this word as well, though only `button` has it for a name: a person who
+/// writes "on" may have meant "Sound on".
+std::vector<std::string> also_ending(const ScreenProfile& profile, std::size_t button, std::string_view word);
+
 /// What the path of a page means: the whole of it or its end from a slash on, small or capital.
 struct ResolvedPage {
     std::optional<std::size_t> page;

@@ -140,6 +140,22 @@ std::optional<double> split_input(std::string_view& path) {
     return number;
 }
 
+/// "Password=abc": what is behind the sign of a button that takes a number is none.
+std::optional<std::string> wrong_number(const Standpoint& at, std::string_view path) {
+    const std::size_t sign = path.rfind('=');
+    if (sign == std::string_view::npos) {
+        return std::nullopt;
+    }
+    const auto found = candidates(at, path.substr(0, sign), true);
+    const Button* button = found.size() == 1 ? &at.profile.buttons[found[0].button] : nullptr;
+    if (button == nullptr || !button->input) {
+        return std::nullopt;
+    }
+    return fmt::format("\"{}\" takes a number from {} to {}; found \"{}\"", button->path,
+                       short_text(button->input->min), short_text(button->input->max),
+                       printable(path.substr(sign + 1, 100)));
+}
+
 std::string check_input(const Button& button, std::optional<double> typed) {
     if (!typed) {
         return {};
@@ -154,7 +170,32 @@ std::string check_input(const Button& button, std::optional<double> typed) {
                               short_text(*typed));
 }
 
+/// By its whole path, or by the end of it when that is all that was given.
+std::string nearest_page(const ScreenProfile& profile, std::string_view path) {
+    const bool whole = path.find('/') != std::string_view::npos;
+    std::vector<std::string_view> names;
+    for (const Page& page : profile.pages) {
+        const std::size_t slash = whole ? std::string::npos : page.path.rfind('/');
+        names.push_back(std::string_view(page.path).substr(slash == std::string::npos ? 0 : slash + 1));
+    }
+    const auto hit = std::find(names.begin(), names.end(), behaviour::nearest(path, names));
+    return hit == names.end() ? "" : profile.pages[static_cast<std::size_t>(hit - names.begin())].path;
+}
+
 }  // namespace
+
+std::vector<std::string> also_ending(const ScreenProfile& profile, std::size_t button,
+                                     std::string_view word) {
+    std::vector<std::string> out;
+    for (std::size_t id = 0; id < profile.buttons.size(); ++id) {
+        const Button& other = profile.buttons[id];
+        if (id != button && other.name.size() > word.size() && other.name.ends_with(word) &&
+            other.name[other.name.size() - word.size() - 1] == ' ') {
+            out.push_back('"' + other.path + '"');
+        }
+    }
+    return out;
+}
 
 Resolved resolve(const ScreenProfile& profile, std::span<const Shown> values, std::size_t page,
                  std::string_view path) {
@@ -168,7 +209,7 @@ Resolved resolve(const ScreenProfile& profile, std::span<const Shown> values, st
     }
     prefer_page(at, found);
     if (found.empty()) {
-        out.sentence = nearest_sentence(profile, path);
+        out.sentence = wrong_number(at, path).value_or(nearest_sentence(profile, path));
         return out;
     }
     if (found.size() > 1) {
@@ -192,10 +233,8 @@ Resolved resolve(const ScreenProfile& profile, std::span<const Shown> values, st
 ResolvedPage resolve_page(const ScreenProfile& profile, std::string_view path) {
     ResolvedPage out;
     std::vector<std::string> found;
-    std::vector<std::string_view> paths;
     for (std::size_t id = 0; id < profile.pages.size(); ++id) {
         const std::string& full = profile.pages[id].path;
-        paths.emplace_back(full);
         if (same(full, path, true)) {
             return {id, {}};
         }
@@ -209,7 +248,7 @@ ResolvedPage resolve_page(const ScreenProfile& profile, std::string_view path) {
         out.sentence =
             fmt::format("\"{}\" may be {}; write more of its path", printable(path), fmt::join(found, ", "));
     } else if (found.empty()) {
-        const std::string_view near = behaviour::nearest(path, paths);
+        const std::string near = nearest_page(profile, path);
         out.sentence = fmt::format("there is no page \"{}\"{}", printable(path.substr(0, 100)),
                                    near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near));
     }

@@ -231,6 +231,11 @@ TEST_CASE_FIXTURE(Marlin,
 
 TEST_CASE_FIXTURE(Marlin, "Marlin: filament is changed with its questions") {
     home();
+    CHECK(told("M600") ==
+          "//action:paused\n//action:prompt_end\n//action:prompt_begin Pause\n//action:prompt_button "
+          "Dismiss\n//action:prompt_show\necho:Hotend too cold\nok\n");
+    say("M104 S200", Channel::main, 200);
+    forget();
     say("M600", Channel::host, 20);
     CHECK(heard_by_host().starts_with("//action:paused\n//action:prompt_end\n//action:prompt_begin Pause\n"));
     CHECK(has(heard_by_host(), "echo:Insert filament and send M108\n"));
@@ -244,6 +249,52 @@ TEST_CASE_FIXTURE(Marlin, "Marlin: filament is changed with its questions") {
     say("M876 S1", Channel::host, 1);
     CHECK(has(heard_by_host(), "//action:prompt_end\n//action:resumed\n"));
     CHECK(count(heard_by_host(), "ok\n") == 3);  // of the two answers and of M600
+}
+
+TEST_CASE_FIXTURE(
+    Marlin, "Marlin: a change of filament that takes too long lets the nozzle cool, and heats it again") {
+    home();
+    say("M104 S200", Channel::main, 200);
+    say("M600", Channel::main, 20);
+    forget();
+    run_for(40);
+    CHECK(has(said(),
+              "echo:Send M108 to heat nozzle\n//action:prompt_end\n//action:prompt_begin Heater "
+              "Timeout\n//action:prompt_button Reheat\n//action:prompt_show\n"));
+    CHECK(number("heaters.nozzle.target") == 0);
+    run_for(60);
+    const std::string heating = told("M108", 1);
+    CHECK(has(heating, "//action:prompt_begin Reheating...\n//action:prompt_show\n"));
+    CHECK(number("heaters.nozzle.target") == 200);
+    forget();
+    run_for(100);
+    CHECK(has(said(),
+              "echo:Insert filament and send M108\n//action:prompt_end\n//action:prompt_begin Reheat "
+              "Done\n//action:prompt_button Continue\n"));
+    CHECK(has(told("M876 S0"),
+              "echo:Insert filament and send M108\n//action:prompt_end\n//action:prompt_begin "
+              "Load Filament T0\n//action:prompt_button Continue\n"));
+    CHECK(has(told("M876 S0"), "//action:prompt_begin Paused\n"));
+    forget();
+    say("M108", Channel::main, 1);
+    CHECK(has(said(), "//action:resumed\n"));
+    CHECK(count(said(), "ok\n") == 5);  // of M600, two M108 and two M876
+    // Answered in time nothing goes cold; M125 asks alike, and goes on at once.
+    say("M125", Channel::main, 100);
+    forget();
+    run_for(1);
+    CHECK(number("heaters.nozzle.target") == 0);
+    CHECK(has(told("M108", 60),
+              "echo:Send M108 to resume\n//action:prompt_end\n//action:prompt_begin Reheat Done\n"));
+    CHECK(has(told("M108", 1), "//action:resumed\n"));
+    run_for(100);
+    CHECK(number("heaters.nozzle.target") == 200);
+}
+
+TEST_CASE_FIXTURE(Marlin, "Marlin: a tuning is told every two seconds") {
+    say("M303 E0 S100 C3", Channel::main, 10.5);
+    CHECK(count(said(), " T:") == 6);
+    CHECK(count(told("M108", 1), "ok\n") == 2);
 }
 
 TEST_CASE_FIXTURE(Marlin, "Marlin: M0 asks, waits and is answered") {

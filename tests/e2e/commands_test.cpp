@@ -27,7 +27,7 @@ TEST_CASE("each mistake has its exit code and its sentence, and says nothing on 
         {{"run", "--eeprom", "/missing/eeprom"}, bad_input, "cannot be written"},
         {{"run", "--record", "/missing/talk"}, bad_input, "cannot be written"},
         {{"run", "--port", "/dev/ttyMISSING"}, no_port, "/dev/ttyMISSING"},
-        {{"run", "--tcp", "nonsense"}, no_port, "nonsense"},
+        {{"run", "--tcp", "nonsense"}, usage, "nonsense"},
         {{"run", "--pty=/etc/passwd"}, no_port, "/etc/passwd"},
         {{"run", "--pty=/missing/name"}, no_port, "/missing/name"},
         {{"send", "M105"}, usage, "--port"},

@@ -89,7 +89,7 @@ std::vector<int> answered(const std::string& fault) {
     return out;
 }
 
-TEST_CASE("a wrong fault is a sentence, with exit code 3, for run and for tap") {
+TEST_CASE("a wrong fault is a sentence, with exit code 2, for run and for tap") {
     const std::pair<const char*, const char*> wrong[] = {
         {"dorp:every=2", "did you mean \"drop\"?"},
         {"", "found no kind; expected one of drop, garble"},
@@ -109,7 +109,7 @@ TEST_CASE("a wrong fault is a sentence, with exit code 3, for run and for tap") 
             CAPTURE(text);
             const Result result = run(args);
             CAPTURE(result.errors);
-            CHECK(result.code == 3);
+            CHECK(result.code == 2);
             CHECK(contains(result.errors, sentence));
             CHECK(result.out.empty());
         }

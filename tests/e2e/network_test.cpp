@@ -90,7 +90,7 @@ TEST_CASE("run --udp: names never leave the folder, and the answers say so") {
 TEST_CASE("run --udp: a port that cannot be had") {
     const Board board;
     check_mistakes({{{"run", "--udp", board.udp}, no_port, "cannot be listened on"},
-                    {{"run", "--udp", "nonsense"}, no_port, "is not an address"}});
+                    {{"run", "--udp", "nonsense"}, usage, "is not an address"}});
 }
 
 }  // namespace

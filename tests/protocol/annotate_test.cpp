@@ -18,6 +18,29 @@ std::string screen(std::string_view line) {
 
 }  // namespace
 
+TEST_CASE("what boards say that speak as hosts do, in words") {
+    CHECK(board("ok T:22.00 /0.00 B:21.50 /60.00 @:0 B@:127") ==
+          "temperatures: nozzle 22.00 °C (target 0.00 °C), bed 21.50 °C (target 60.00 °C), nozzle power 0 of "
+          "127, bed power 127 of 127");
+    CHECK(board(" T:150.12 /200.00 B:22.00 /0.00 @:127 B@:0 W:?").ends_with("must hold for \"?\""));
+    CHECK(board("X:10.00 Y:0.00 Z:5.00 E:0.00 Count X:800 Y:0 Z:2000") ==
+          "position: X 10.00 mm, Y 0.00 mm, Z 5.00 mm, E 0.00 mm, steps \"X:800 Y:0 Z:2000\"");
+    CHECK(board("Resend: 6") == "again, please: \"6\"");
+    CHECK(board("echo:busy: processing") == "busy: \"processing\"");
+    CHECK(board("echo:SD card ok") == "message: \"SD card ok\"");
+    CHECK(board("//action:prompt_end") == "question is over");
+    CHECK(board("//action:paused") == "host action: \"paused\"");
+    CHECK(board("Cap:EEPROM:1") == "capability: \"EEPROM:1\"");
+    CHECK(
+        board("ok B:0/0 X:0.000 Y:0.000 Z:5.100 F:0/256 D:3860/241025/0 ") ==
+        "status: bed 0 °C (target 0 °C), X 0.000 mm, Y 0.000 mm, Z 5.100 mm, LED fan 0 of 256, board fan 256 "
+        "of 256, at 3860 bytes, of 241025 bytes, halted 0");
+    CHECK(board("ok N:7") == "acknowledged: \"N:7\"");
+    CHECK(screen("G0 Z10.0 F600 I0") == "move: Z 10.0 mm, feedrate 600 mm/min, relative");
+    CHECK(screen("M155 S2") == "temperature reports: every 2 s");
+    CHECK(screen("M876 S1") == "answer a question: button 1");
+}
+
 TEST_CASE("what a board says, in words") {
     CHECK(board("N-0 L1 X198.200 Y160.000 Z15.000 F100*61") ==
           "position: X 198.200 mm, Y 160.000 mm, Z 15.000 mm, feedrate 100 mm/s");

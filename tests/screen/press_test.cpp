@@ -120,6 +120,10 @@ TEST_CASE("paths that are wrong say what is near, or what they may be") {
           "\"Control/Motion Param/Double z home offset/Rset\"; write more of its path");
     CHECK(bench.press("Screen lock PW=12345") ==
           "\"Setting/Add-on/Screen lock PW\" takes a number from 0 to 9999; found 12345");
+    CHECK(bench.press("Screen lock PW=abc") ==
+          "\"Setting/Add-on/Screen lock PW\" takes a number from 0 to 9999; found \"abc\"");
+    CHECK(resolve_page(bench->profile(), "Jrek").sentence ==
+          "there is no page \"Jrek\"; did you mean \"Control/Motion Param/Jerk\"?");
     CHECK(bench.press("Home all=1") == "\"Control/Home/Home all\" takes no number");
     CHECK(bench.press("X+ (10mm)") ==
           "\"Control/Move/X+ (10mm)\" is not there now; it is when move.step is 10, and it is 30");

@@ -30,6 +30,32 @@ TEST_CASE("check: good files, by path and by name") {
     CHECK(sentences(check_file(mine.path())) == "");
 }
 
+TEST_CASE("check: names that are not there are told where they stand, with the nearest") {
+    const TemporaryFile board("b.json", R"({"name": "b",
+"extends": "geetech-a30t"})");
+    CHECK(sentences(check_file(board.path())) ==
+          board.path() +
+              ":2: /extends: there is no profile \"geetech-a30t\"; did you mean \"geeetech-a30t\"?\n");
+    const TemporaryFile screen("s.json", R"({"name": "s", "extends": "geetech-a30t", "pages": {}})");
+    CHECK(sentences(check_file(screen.path())) ==
+          screen.path() +
+              ":1: /extends: there is no screen \"geetech-a30t\"; did you mean \"geeetech-a30t\"?\n");
+    const TemporaryFile scenario("c.json", R"({"name": "c",
+"profile": "geetech-a30t", "steps": [{"wait": "1s"}]})");
+    const std::string told = sentences(check_file(scenario.path()));
+    CHECK(told.starts_with(scenario.path() +
+                           ":2: /profile: \"geetech-a30t\": there is no profile of this name"));
+    CHECK(told.ends_with("did you mean \"geeetech-a30t\"?\n"));
+}
+
+TEST_CASE("check: a screen's first word without a line end is remarked upon") {
+    const TemporaryFile glued(
+        "g.json", R"({"name": "g", "extends": "geeetech-a30t", "line": {"hello": "log OK"}, "pages": {}})");
+    CHECK(sentences(check_file(glued.path())) == "");
+    CHECK(check_file(glued.path()).remark.find("line.hello has no line end") != std::string::npos);
+    CHECK(check_file(FAUXBOARD_SOURCE_DIR "/profiles/screens/geeetech-a30.json").remark.empty());
+}
+
 TEST_CASE("check: what the loader finds comes with line, place and nearest name, and once only") {
     const TemporaryFile file("wrong.json", R"({
   "name": "wrong",

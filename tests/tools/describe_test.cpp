@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "emulator/behaviour/actions.h"
 #include "emulator/behaviour/fields.h"
 #include "emulator/fault/kind.h"
@@ -31,7 +33,7 @@ TEST_CASE("describe: all rows are there, each with its words") {
     CHECK(reference["actions"].size() == behaviour::actions().size());
     CHECK(reference["events"].size() == machine::events().size());
     CHECK(reference["codes"].size() == protocol::catalogue().size());
-    const std::string text = tools::reference_text(tools::reference_parts);
+    const std::string text = tools::reference_text(reference);
     for (const auto& [part, rows] : reference.items()) {
         if (part == "control" || part == "faults" || part == "scenarios") {
             continue;  // below
@@ -46,12 +48,35 @@ TEST_CASE("describe: all rows are there, each with its words") {
     }
 }
 
+TEST_CASE("describe: one field, group, code, action or fault by its name") {
+    const auto text = [](const std::vector<std::string>& words) {
+        const tools::Choice chosen = tools::choose_reference(words);
+        return chosen.wrong.empty() ? tools::reference_text(chosen.reference) : chosen.wrong;
+    };
+    const std::string field = text({"heaters.nozzle.target"});
+    CHECK(field.starts_with("FIELDS"));
+    CHECK(std::count(field.begin(), field.end(), '\n') == 2);
+    CHECK(text({"heaters.nozzle"}).find("heaters.nozzle.printed") != std::string::npos);
+    CHECK(text({"heaters.nozzle"}).find("heaters.bed") == std::string::npos);
+    CHECK(text({"L3"}).find("> L3") != std::string::npos);
+    CHECK(text({"L3"}).find("> L30") == std::string::npos);
+    CHECK(text({"motion.home"}).find("ACTIONS") == 0);
+    CHECK(text({"jam"}).find("jam ") != std::string::npos);
+    CHECK(text({"jam"}).find("thermistor_open") == std::string::npos);
+    const std::string two = text({"events", "L3"});
+    CHECK(two.starts_with("EVENTS"));
+    CHECK(two.find("CODES") != std::string::npos);
+    CHECK(text({"field"}) ==
+          "there is no part, field, action, event, code or fault \"field\"; did you mean \"fields\"?");
+    CHECK(text({"L3", "heaters.nozle"}).find("did you mean \"heaters.nozzle\"?") != std::string::npos);
+}
+
 TEST_CASE("describe: only the parts asked for") {
     const std::string_view part = "events";
     const auto reference = tools::reference_json({&part, 1});
     CHECK(reference.size() == 1);
     CHECK(reference.contains("events"));
-    const std::string text = tools::reference_text({&part, 1});
+    const std::string text = tools::reference_text(tools::reference_json({&part, 1}));
     CHECK(text.starts_with("EVENTS"));
     CHECK(text.find("FIELDS") == std::string::npos);
 }
@@ -61,7 +86,7 @@ TEST_CASE("describe: every kind of fault and every attribute is there, for peopl
     const auto faults = tools::reference_json({&part, 1})["faults"];
     CHECK(faults["kinds"].size() == fault::kinds().size());
     CHECK(faults["common"].size() == fault::common_attributes().size());
-    const std::string text = tools::reference_text({&part, 1});
+    const std::string text = tools::reference_text(tools::reference_json({&part, 1}));
     const std::string page = tools::reference_markdown();
     CHECK(text.starts_with("FAULTS"));
     const auto check_attribute = [&](const fault::Attribute& attribute) {
@@ -98,7 +123,7 @@ TEST_CASE("describe: every kind of fault and every attribute is there, for peopl
 
 TEST_CASE("describe: the control channel's ops, topics and errors are all there") {
     const auto control = tools::reference_json(tools::reference_parts)["control"];
-    const std::string text = tools::reference_text(tools::reference_parts);
+    const std::string text = tools::reference_text(tools::reference_json(tools::reference_parts));
     const std::string page = tools::reference_markdown();
     for (const auto* table : {"ops", "topics", "errors"}) {
         CHECK(control[table].size() > 3);

@@ -110,7 +110,7 @@ json everything() {
         "requests": {
             "M9000": { "until_done": true, "when": { "S": { "min": 0, "max": 3, "not": 2, "in": [ 0, 1 ], "present": true }, "arg": { "starts_with": "S" }, "FW:": "x", "P?": 1, "var.v": 1 },
                        "do": { "heater.target": { "heater": "bed", "c": "{S|0}" }, "add": { "settings.steps.x": 1 } }, "send": "plain", "after": "plain" },
-            "hello": [ {}, { "do": "motors.enable" } ], "M105": null },
+            "hello": [ { "when": { "S": 1 } }, { "do": "motors.enable" } ], "M105": null },
         "host_requests": { "M9001": { "at_once": true, "send": [ "plain" ] } },
         "events": { "motion.homed": { "do": [ "motors.disable" ], "send": { "frame": "plain" } } }
     })");

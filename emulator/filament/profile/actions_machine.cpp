@@ -38,8 +38,10 @@ std::optional<HeaterId> heater(ActionContext& c, const Value& name) {
 void heater_target(Printer& p, ActionContext& c, Args a) {
     const auto id = heater(c, a[0]);
     if (id && p.thermal.set_target(*id, a[1].number)) {
-        refuse(c, "target of the " + std::string(a[0].text) + " beyond what the machine allows; taken as " +
-                      std::to_string(std::lround(p.thermal.target_c(*id))) + " C");
+        c.notices.notice(behaviour::Level::info, "target of the " + std::string(a[0].text) +
+                                                     " beyond what the machine allows; taken as " +
+                                                     std::to_string(std::lround(p.thermal.target_c(*id))) +
+                                                     " C");
     }
 }
 
