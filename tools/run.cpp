@@ -22,6 +22,7 @@
 #include "emulator/host/script_host.h"
 #include "emulator/link/host_error.h"
 #include "emulator/panel/panel.h"
+#include "protocol/command.h"
 #include "tools/board_unit.h"
 #include "tools/commands.h"
 #include "tools/profile_changes.h"
@@ -89,6 +90,10 @@ class Run {
 
 void Run::set_up() {
     log_.call_peer(unit_.profile()->line.peer);
+    log_.ask([this](board::Channel channel, std::string_view code) {
+        const auto command = protocol::parse_command(code);
+        return command && unit_.profile()->rules_for(channel, *command) != nullptr;
+    });
     observers_.add(log_);
     if (!options_.record.empty()) {
         recorder_.emplace(options_.record, [this](machine::SimTime, std::string_view text) {

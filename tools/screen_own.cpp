@@ -222,7 +222,7 @@ class OwnTour {
         if (page.at("box").is_object() && page.at("box").at("buttons").size() == 2 &&
             (name == "OK" || name == "Yes")) {
             ++confirmed_;
-            let_it_work(after);
+            let_it_work();
         }
         note(after);
         const std::string settled = place_of(settle());
@@ -241,9 +241,12 @@ class OwnTour {
         }
     }
 
-    /// What was confirmed may take its time, homing for instance: until the page reads otherwise.
-    void let_it_work(const Json& before) {
-        for (int i = 0; i < work_waits && screen_.page() == before; ++i) {
+    /// What was confirmed may take its time, homing for instance: until the page reads otherwise than when it
+    /// has begun.
+    void let_it_work() {
+        screen_.pass(wait_step);
+        const Json begun = screen_.page();
+        for (int i = 0; i < work_waits && screen_.page() == begun; ++i) {
             screen_.pass(wait_step);
         }
     }

@@ -1,16 +1,15 @@
 // `fauxboard screen tour`: every button, and whether what comes back is what the screen expects.
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <fstream>
 #include <system_error>
 
-#include "emulator/host/plain_text.h"
 #include "emulator/host/text_output.h"
 #include "emulator/link/host_error.h"
 #include "emulator/screen/tour_report.h"
+#include "tools/progress.h"
 #include "tools/report.h"
 #include "tools/screen_commands.h"
 #include "tools/screen_walk.h"
@@ -19,33 +18,6 @@ namespace fauxboard::tools {
 namespace {
 
 using host::SimTime;
-
-/// A line on stderr that is written over and over, for a person at a terminal.
-class Progress {
-  public:
-    Progress() : out_(STDERR_FILENO), shown_(::isatty(STDERR_FILENO) == 1) {}
-    ~Progress() { clear(); }
-    Progress(const Progress&) = delete;
-    Progress& operator=(const Progress&) = delete;
-
-    void say(std::size_t done, std::size_t total, std::string_view last) {
-        if (shown_) {
-            out_.write(host::StyledLine(false).over().add(
-                fmt::format("{:4} of {}  {}", done, total, last.substr(0, 60))));
-            dirty_ = true;
-        }
-    }
-    void clear() {
-        if (std::exchange(dirty_, false)) {
-            out_.write(host::StyledLine(false).over());
-        }
-    }
-
-  private:
-    host::TextOutput out_;
-    bool shown_;
-    bool dirty_ = false;
-};
 
 class WholeTour final : public ScreenWalk {
   public:
@@ -59,7 +31,8 @@ class WholeTour final : public ScreenWalk {
         return std::make_unique<screen::Tour>(session().screen(), session().slack());
     }
     void on_result(const screen::TourResult& result) override {
-        progress_.say(results().size(), total(), result.button);
+        progress_.say(fmt::format("{:4} of {}  {}", results().size(), total(),
+                                  std::string_view(result.button).substr(0, 60)));
     }
     SimTime on_done(SimTime) override {
         session().finish(tour()->passed() ? ExitCode::ok : ExitCode::failed);

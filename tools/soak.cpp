@@ -13,6 +13,7 @@
 #include "emulator/world/invariants.h"
 #include "emulator/world/play.h"
 #include "tools/option_values.h"
+#include "tools/progress.h"
 #include "tools/report.h"
 
 namespace fauxboard::tools {
@@ -102,9 +103,14 @@ ExitCode soak(const SoakOptions& options) {
         if (!options.only.empty()) {
             return replay_one(cast, options);
         }
+        Progress progress;
         const world::Soaked soaked =
-            world::soak(cast, options.seed, options.steps,
-                        [&](const world::Soaked& so_far) { return years(so_far.time) >= options.years; });
+            world::soak(cast, options.seed, options.steps, [&](const world::Soaked& so_far) {
+                progress.say(fmt::format("{} worlds, {:.2f} of {} years, {} requests", so_far.seeds,
+                                         years(so_far.time), options.years, so_far.requests));
+                return years(so_far.time) >= options.years;
+            });
+        progress.clear();
         print(options.json ? json_of(soaked) : text_of(soaked));
         return soaked.broken.empty() ? ExitCode::ok : ExitCode::failed;
     } catch (const behaviour::ProfileError& error) {

@@ -117,7 +117,9 @@ void LineLog::on_received(SimTime now, board::Channel channel, std::string_view 
         return;
     }
     const std::string line = protocol::mask_secrets(received);
-    std::string words = words_of(line, protocol::Direction::to_board);
+    const protocol::DecodedLine decoded = protocol::decode_line(line, protocol::Direction::to_board);
+    const bool own = decoded.code == nullptr && knows_ && knows_(channel, decoded.code_text);
+    std::string words = own ? decoded.code_text + ": the profile's own" : protocol::explain(decoded);
     words += words_of(verdict);
     print(now, verdict == board::Verdict::accepted ? Ink::incoming : Ink::error,
           fmt::format("{} → board", other_end(channel)), behaviour::as_ascii(line), words);

@@ -2,7 +2,9 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <utility>
 
 #include "emulator/host/live_observer.h"
 #include "emulator/host/plain_text.h"
@@ -27,6 +29,10 @@ class LineLog final : public LiveObserver {
   public:
     /// What the main line's other end is called from here on: "screen" until told.
     void call_peer(std::string_view name) { peer_ = name; }
+    /// Whether the board's profile has rules of its own for a request, by its code, that no table of the
+    /// protocol has.
+    using Knows = std::function<bool(board::Channel channel, std::string_view code)>;
+    void ask(Knows knows) { knows_ = std::move(knows); }
     /// `lines_per_second` (of virtual time) is what passes for long in Detail::normal; bursts of four times
     /// as many lines do, too. Zero: no limit. Warnings have a measure of their own, and errors another: no
     /// flood of lines keeps them from being said.
@@ -66,6 +72,7 @@ class LineLog final : public LiveObserver {
     TextOutput& out_;
     Detail detail_;
     std::string peer_ = "screen";
+    Knows knows_;
     bool colours_;
     double rate_;
     double burst_;

@@ -130,6 +130,9 @@ void Printer::choose(std::string_view name) {
     if (plain.empty()) {
         return;
     }
+    if (job.active() && !refusing && print.exposed_all()) {
+        print.cut_end(now());  // a host that has seen the last layer exposed prints its next file
+    }
     if (job.active() || refusing || commands.running()) {
         outcome = Outcome::busy;
         events.raise(event("job.refused"));

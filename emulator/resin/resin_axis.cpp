@@ -116,6 +116,15 @@ bool ResinAxis::move(double mm, bool by, double mm_min, SimTime now) {
     return true;
 }
 
+bool ResinAxis::homing() const {
+    for (std::size_t i = 0; i < count_; ++i) {
+        if (steps_[(head_ + i) % most_steps].kind == Step::Kind::homed) {
+            return true;
+        }
+    }
+    return false;
+}
+
 bool ResinAxis::home(SimTime now) {
     constexpr std::size_t steps = 6;
     if (count_ + steps > most_steps) {

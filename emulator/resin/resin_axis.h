@@ -27,6 +27,8 @@ class ResinAxis {
     /// What the board shows, mm.
     double position(SimTime now) const { return height(now) - zero_; }
     bool homed() const { return homed_; }
+    /// It is to be, of what is under way or waits.
+    bool homing() const;
     bool busy() const { return count_ != 0; }
     bool motors() const { return motors_; }
     bool relative = false;  ///< G91

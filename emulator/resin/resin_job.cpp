@@ -92,6 +92,16 @@ void ResinJob::halt(SimTime now) {
     power_on();
 }
 
+bool ResinJob::exposed_all() const {
+    const bool lifts = phase_ == Phase::lifting || phase_ == Phase::waiting;
+    return phase_ == Phase::finishing || (lifts && index_ + 1 >= file_->header().layers);
+}
+
+void ResinJob::cut_end(SimTime now) {
+    axis_.abort(now);
+    finished(now);
+}
+
 bool ResinJob::moves() const {
     return phase_ == Phase::homing || phase_ == Phase::approaching || phase_ == Phase::lifting ||
            phase_ == Phase::finishing;

@@ -59,6 +59,10 @@ class ResinJob {
     SimTime next_event() const;
 
     Phase phase() const { return phase_; }
+    /// Every layer is exposed: what is left is the last lift and what is done after a print.
+    bool exposed_all() const;
+    /// Leaves that out: the job is finished where the platform stands.
+    void cut_end(SimTime now);
     bool exposing() const { return phase_ == Phase::exposing; }
     /// Light of the layer under way, 0 to 255; 0 in the dark.
     int light() const;

@@ -118,6 +118,34 @@ TEST_CASE("chitu print: all through a print the place is a layer's end, M27 and 
     CHECK(print.number("resin.motor") == 0);
 }
 
+TEST_CASE("chitu print: a host that has seen the last layer begins its next print at once") {
+    Print print;
+    print.start();
+    const double layers = seed_wishes().layers;
+    while (print.number("job.layer") < layers) {
+        print.driver.run_for(0.1);
+        REQUIRE(print.driver.now() < 3600);
+        if (print.number("job.layer") < layers) {
+            CHECK(print.ask("M23 " + std::string(seed_file)).starts_with("Error:It's printing now!"));
+        }
+    }
+    CHECK(print.ask("M23 " + std::string(seed_file)).find("File selected") != std::string::npos);
+    CHECK(print.ask("M24").starts_with("ok N:"));
+    print.driver.run_for(1);
+    CHECK(print.number("job.status") == 1);
+    CHECK(print.number("job.layer") == 0);
+}
+
+TEST_CASE("chitu print: on its way to the first homing the platform is not told below 0") {
+    Print print;
+    print.ask("G28");
+    for (int i = 0; i < 200; ++i) {
+        print.driver.run_for(0.5);
+        CHECK(print.ask("M114").find("Z:-") == std::string::npos);
+    }
+    CHECK(print.number("resin.homed") == 1);
+}
+
 TEST_CASE(
     "chitu print: each layer is exposed at its height as long as its record says, and dark before as long") {
     Print print;

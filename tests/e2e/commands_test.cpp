@@ -86,11 +86,11 @@ TEST_CASE("send frames, shows what comes back, and knows when nothing does") {
 
     const link::test::OtherPty silent;
     const UniqueFd held = link::test::open_terminal(silent.path);
-    const Result nothing = run({"send", "--port", silent.path, "--wait", "20", "--bare", "M105", "M999"});
+    const Result nothing = run({"send", "--port", silent.path, "--wait", "20", "--bare", "M105", "M9999"});
     CHECK(nothing.code == timed_out);
     CHECK(contains(nothing.errors, "nothing came back for 'M105'"));
-    CHECK_FALSE(contains(nothing.errors, "M999"));
-    CHECK(link::test::take(silent.master.get()) == "M105\r\nM999\r\n");
+    CHECK_FALSE(contains(nothing.errors, "M9999"));
+    CHECK(link::test::take(silent.master.get()) == "M105\r\nM9999\r\n");
 }
 
 }  // namespace

@@ -38,8 +38,13 @@ TEST_CASE("ctl page, touch and screenshot; screen show and press with --control"
     const nlohmann::json main = live.page();
     CHECK(main["title"] == "MAIN MENU");
     CHECK(main["box"].is_null());
-    CHECK(main["controls"][0] == nlohmann::json{{"name", "Files"}, {"x", 15}, {"y", 100}, {"w", 451}, {"h", 66},
-                                                {"label", "FILES"}, {"enabled", true}});
+    CHECK(main["controls"][0] == nlohmann::json{{"name", "Files"},
+                                                {"x", 15},
+                                                {"y", 100},
+                                                {"w", 451},
+                                                {"h", 66},
+                                                {"label", "FILES"},
+                                                {"enabled", true}});
     CHECK(live.ctl({"touch", "240", "132"}).code == 0);
     CHECK(live.page()["title"] == "FILES");
     CHECK(live.ctl({"touch", "Back"}).code == 0);
@@ -73,7 +78,7 @@ TEST_CASE("the tour comes to every page to which a touch leads; what comes of fa
     wishes.layers = 2;
     wishes.exposure_s = wishes.bottom_exposure_s = 1;
     std::ofstream(folder.file("stick/model.pws"), std::ios::binary) << testing::make_panel_pws(wishes);
-    std::ofstream(folder.file("stick/a.acfg")) << "[ZMotor]\nfeedrate = 7\n";
+    std::ofstream(folder.file("stick/a.acfg")) << "[ZMotor]\noff_time = 0\n";  // it stays homed
     Program program({"run", "-q", "--profile", "mks-dlp", "--udisk", folder.file("stick"), "--control",
                      folder.file("control"), "--speed", "30"});
     program.ready();
@@ -83,8 +88,9 @@ TEST_CASE("the tour comes to every page to which a touch leads; what comes of fa
     // Without a file that is too high, that page is missing, and it says so.
     CHECK(tour.code == failed);
     CHECK(contains(tour.out, "\nToo high: no touch of this tour led to it\n"));
-    for (const char* page : {"Printing", "Cancel printing?", "Printing interrupted", "Home first?", "Zero set",
-                             "Loading settings", "Settings loaded", "Deleted", "Number", "Clock", "Screensaver"}) {
+    // What passes by itself may do so unseen: the board goes on while the tour looks.
+    for (const char* page :
+         {"Printing", "Cancel printing?", "Settings loaded", "Deleted", "Number", "Clock", "Screensaver"}) {
         CAPTURE(page);
         CHECK_FALSE(contains(tour.out, std::string("\n") + page + ": "));
     }
@@ -98,7 +104,8 @@ TEST_CASE("a board without a screen says so") {
     program.ready();
     const Result page = run({"ctl", control, "page"});
     CHECK(page.code == 1);
-    CHECK(contains(page.errors, "This board has no screen of its own, and no virtual one is in this process."));
+    CHECK(
+        contains(page.errors, "This board has no screen of its own, and no virtual one is in this process."));
 }
 
 }  // namespace fauxboard::e2e

@@ -77,9 +77,9 @@ TEST_CASE("run --fault: a card pulled out, together with a fault of the line") {
 
 TEST_CASE("run --fault: what is wrong with a fault of the printer is a sentence, before anything runs") {
     check_mistakes({
-        {{"run", "--fault", "jamm"}, bad_input, "did you mean \"jam\"?"},
-        {{"run", "--fault", "heater_dead:heater=chamber"}, bad_input, "chamber"},
-        {{"run", "--fault", "jam:at=soon"}, bad_input, "soon"},
+        {{"run", "--fault", "jamm"}, usage, "did you mean \"jam\"?"},
+        {{"run", "--fault", "heater_dead:heater=chamber"}, usage, "chamber"},
+        {{"run", "--fault", "jam:at=soon"}, usage, "soon"},
     });
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 
 #include "emulator/host/screen_files.h"
 #include "emulator/record/recording.h"
@@ -33,6 +34,16 @@ void write_file(const std::string& file, const std::string& text) {
     std::ofstream(file, std::ios::binary) << text;
 }
 
+/// What stands on stderr beside how far a slow tour has got: "  52 of 186  Control/Home".
+std::string without_progress(const std::string& errors, const std::string& buttons) {
+    std::istringstream in(errors);
+    std::string out;
+    for (std::string line; std::getline(in, line);) {
+        out += contains(line, " of " + buttons + "  ") ? "" : line + "\n";
+    }
+    return out;
+}
+
 TEST_CASE("the tour presses every button of the screen, and the board meets every expectation") {
     for (const std::string& name : {std::string("geeetech-a30t"), std::string("geeetech-a30")}) {
         CAPTURE(name);
@@ -42,7 +53,7 @@ TEST_CASE("the tour presses every button of the screen, and the board meets ever
         const Result tour = run({"screen", "--port", board.path, "--screen", name, "--speed", fast, "tour",
                                  "--junit", folder.file("tour.xml")});
         INFO(tour.out);
-        CHECK(tour.errors == "");
+        CHECK(without_progress(tour.errors, buttons) == "");
         CHECK(tour.code == 0);
         CHECK(
             contains(tour.out, "\n" + buttons + " buttons: " + buttons + " met, 0 not met, 0 not pressed\n"));

@@ -1,3 +1,4 @@
+#include <sys/ioctl.h>
 #include <sys/stat.h>
 
 #include <csignal>
@@ -47,6 +48,64 @@ TEST_CASE("a line of the log has time, direction, bytes and words, and no colour
     CHECK(text.starts_with("    12.346  screen → board  N-0 M104 S200*74"));
     CHECK(contains(text, "nozzle: target 200 °C"));
     CHECK_FALSE(contains(text, "\x1b"));
+}
+
+TEST_CASE("a code that only the profile knows is said to be its own") {
+    const Pipe pipe;
+    TextOutput out(pipe.out.get());
+    LineLog log(out, Detail::normal, 100);
+    log.on_received(1s, Channel::main, "M2999 S3", Verdict::accepted);
+    CHECK(contains(pipe.take(), "unknown \"M2999 S3\""));
+    log.ask(
+        [](Channel channel, std::string_view code) { return channel == Channel::main && code == "M2999"; });
+    log.on_received(1s, Channel::main, "M2999 S3", Verdict::accepted);
+    CHECK(contains(pipe.take(), "M2999: the profile's own"));
+    log.on_received(1s, Channel::main, "M2998", Verdict::accepted);
+    CHECK(contains(pipe.take(), "unknown \"M2998\""));
+}
+
+TEST_CASE("what a fault did to a line, and what was done from outside, stand in both logs") {
+    const Pipe pipe;
+    TextOutput out(pipe.out.get());
+    LineLog log(out, Detail::normal, 100);
+    JsonLog json(out);
+    const fault::Deed deed{3, fault::Direction::to_board, "drop", "N-0 M105*10"};
+    log.on_deed(1s, Channel::main, deed);
+    CHECK(contains(pipe.take(), "fault 3         drop from screen: N-0 M105*10"));
+    log.on_world(1s, "filament out");
+    CHECK(contains(pipe.take(), "done            filament out"));
+    json.on_deed(1s, Channel::main, deed);
+    json.on_world(2s, "filament out");
+    std::istringstream lines(pipe.take());
+    std::string line;
+    std::getline(lines, line);
+    CHECK(nlohmann::json::parse(line) ==
+          nlohmann::json{
+              {"t", 1.0}, {"fault", 3}, {"kind", "drop"}, {"from", "screen"}, {"line", "N-0 M105*10"}});
+    std::getline(lines, line);
+    CHECK(nlohmann::json::parse(line) == nlohmann::json{{"t", 2.0}, {"done", "filament out"}});
+    LineLog quiet(out, Detail::quiet, 100);
+    quiet.on_deed(1s, Channel::main, deed);
+    quiet.on_world(1s, "filament out");
+    CHECK(pipe.take().empty());
+}
+
+TEST_CASE("on a terminal a line of the log is as wide as that, and whole when verbose") {
+    const link::test::OtherPty terminal;
+    const link::UniqueFd held = link::test::open_terminal(terminal.path);
+    const winsize size{24, 70, 0, 0};
+    REQUIRE(::ioctl(held.get(), TIOCSWINSZ, &size) == 0);
+    TextOutput out(held.get());
+    REQUIRE(out.columns() == 70);
+    CHECK(TextOutput(Pipe().out.get()).columns() == 0);
+    const std::string note = "größer: " + std::string(100, 'x');
+    LineLog(out, Detail::normal, 100).on_notice(0s, Level::info, note);
+    const std::string cut = link::test::take(terminal.master.get());
+    CHECK(contains(cut, "größer: xxx"));
+    CHECK(contains(cut, "…"));
+    CHECK_FALSE(contains(cut, std::string(40, 'x')));
+    LineLog(out, Detail::verbose, 100).on_notice(0s, Level::info, note);
+    CHECK(contains(link::test::take(terminal.master.get()), std::string(100, 'x')));
 }
 
 TEST_CASE("bytes that a terminal would obey are shown as numbers") {

@@ -1,5 +1,6 @@
 // Axis, light, file, settings.
 
+#include <algorithm>
 #include <array>
 #include <utility>
 #include <vector>
@@ -18,8 +19,12 @@ using enum behaviour::FieldType;
 constexpr behaviour::FieldRows<Printer> row;
 
 constexpr std::array own{
-    row.shown("resin.z", number, "mm", "height of the platform as the board knows it; 0 at power-on",
-              [](const Printer& p) { return p.axis.position(p.now()); }),
+    row.shown("resin.z", number, "mm",
+              "height of the platform as the board knows it; 0 at power-on, and not below while it homes",
+              [](const Printer& p) {
+                  const double z = p.axis.position(p.now());
+                  return p.axis.homing() ? std::max(z, 0.0) : z;
+              }),
     row.shown("resin.homed", boolean, "", "the platform has been homed, and its motor held it since",
               [](const Printer& p) { return p.axis.homed(); }),
     row.shown("resin.moving", boolean, "", "the platform moves",
