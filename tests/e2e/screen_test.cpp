@@ -279,7 +279,7 @@ TEST_CASE("each mistake has its exit code and its sentence") {
         {with({"tour", "--screen", "geeetech-a30x"}), bad_input, "did you mean \"geeetech-a30"},
         {with({"tour", "--screen", "/missing.json"}), bad_input, "/missing.json"},
         {with({"tour"}), no_port, "/dev/ttyMISSING"},
-        {{"screen", "--tcp", "nonsense", "tour"}, no_port, "nonsense"},
+        {{"screen", "--tcp", "nonsense", "tour"}, usage, "nonsense"},
         {with({"tour", "--junit", "/missing/x.xml"}), bad_input, "cannot be written"},
         {with({"tour", "--record", "/missing/x"}), bad_input, "cannot be written"},
         {with({"interactive"}), usage, "needs a terminal"},
