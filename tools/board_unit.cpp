@@ -182,7 +182,8 @@ void BoardUnit::set_up_disks(machine::Services& services) {
 void BoardUnit::open_target(std::function<void()> quit) {
     target_.emplace(host::LiveTarget::Parts{loop_, *board_, *live_, *clock_, *link_, &*faults_,
                                             std::move(quit), options_.speed.max ? 0 : options_.speed.factor,
-                                            plug_ ? nullptr : host::screen_of(*profile_), display_.get()});
+                                            plug_ || screen_ ? nullptr : host::screen_of(*profile_),
+                                            display_.get()});
     if (plug_) {
         target_->show(*plug_);
     }

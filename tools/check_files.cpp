@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <set>
 
 #include "emulator/behaviour/nearest.h"
 #include "emulator/behaviour/parse_json.h"
@@ -11,6 +12,7 @@
 #include "emulator/host/screen_files.h"
 #include "emulator/host/script_files.h"
 #include "emulator/screen/screen_profile.h"
+#include "tools/fleet_file.h"
 
 namespace fauxboard::tools {
 namespace {
@@ -49,6 +51,17 @@ constexpr Kind kinds[] = {
      {"steps", "parameters", "limits", "screen"},
      [](const SourceText& source) {
          host::check_script(source);
+         return std::string();
+     }},
+    {"fleet.schema.json",
+     {"boards"},
+     [](const SourceText& source) {
+         std::set<std::string> profiles;
+         for (const FleetBoard& board : read_fleet(source).boards) {
+             if (profiles.insert(board.options.profile).second) {
+                 host::load_profile_by_name(board.options.profile);
+             }
+         }
          return std::string();
      }},
 };

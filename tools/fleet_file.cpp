@@ -169,6 +169,11 @@ class Reader {
 
 }  // namespace
 
+Fleet read_fleet(const behaviour::SourceText& source) {
+    const behaviour::Document document = behaviour::parse_document(source);
+    return Reader(document).read();
+}
+
 Fleet read_fleet(const std::string& file) {
     const auto source = host::profile_finder()(file.find('/') == std::string::npos ? "./" + file : file, {});
     if (!source) {
@@ -177,8 +182,7 @@ Fleet read_fleet(const std::string& file) {
         problem.message = "no such file, or it cannot be read, or it is larger than 4 MiB";
         throw behaviour::ProfileError({problem});
     }
-    const behaviour::Document document = behaviour::parse_document(*source);
-    return Reader(document).read();
+    return read_fleet(*source);
 }
 
 }  // namespace fauxboard::tools

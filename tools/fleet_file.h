@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "emulator/behaviour/source.h"
 #include "tools/run_options.h"
 
 namespace fauxboard::tools {
@@ -22,6 +23,8 @@ struct Fleet {
 /// Reads {"boards": [{"profile", "count", "name", ...}, ...]}; see the guide in tools/guides. `{n}` in a text
 /// is the number of the board within its group, from 1. Throws behaviour::ProfileError with all that is
 /// wrong.
+Fleet read_fleet(const behaviour::SourceText& source);
+/// The same of a file by its path.
 Fleet read_fleet(const std::string& file);
 
 }  // namespace fauxboard::tools

@@ -20,13 +20,6 @@ double rounded(double value) {
     return std::round(value * 1e6) / 1e6;
 }
 
-/// The pixels of a panel's line without the dead ones behind each half, 180 bytes.
-void take_pixels(std::span<const std::uint8_t> line, std::span<unsigned char> row) {
-    constexpr std::size_t half = dlp::half_columns / 8;
-    std::copy_n(line.begin(), half, row.begin());
-    std::copy_n(line.begin() + dlp::line_bytes / 2, half, row.begin() + half);
-}
-
 }  // namespace
 
 PanelFolder::PanelFolder(std::string folder, OnTrouble on_trouble)
@@ -47,7 +40,7 @@ void PanelFolder::write_picture(const std::string& name) const {
     write_png((std::filesystem::path(folder_) / name).string(),
               {dlp::panel_columns, dlp::panel_lines, false, true, [&](std::span<unsigned char> row) {
                    panel.white() ? static_cast<void>(std::fill(row.begin(), row.end(), 0xFF))
-                                 : take_pixels(panel.fpga().line(bank, line), row);
+                                 : dlp::take_pixels(panel.fpga().line(bank, line), row);
                    ++line;
                    return true;
                }});

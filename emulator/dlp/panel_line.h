@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -34,5 +35,12 @@ using Packet = std::array<std::uint8_t, packet_bytes>;
 /// Fills in what stands around the 192 bytes at `packet[2]`: bank 0 to 3 and line 0 to 2559, checksum.
 void seal(Packet& packet, unsigned bank, unsigned line);
 Packet make_packet(const PanelLine& data, unsigned bank, unsigned line);
+
+/// The pixels of a line without the dead ones behind each half, 180 bytes.
+inline void take_pixels(std::span<const std::uint8_t> line, std::span<unsigned char> row) {
+    constexpr std::size_t half = half_columns / 8;
+    std::copy_n(line.begin(), half, row.begin());
+    std::copy_n(line.begin() + line_bytes / 2, half, row.begin() + half);
+}
 
 }  // namespace fauxboard::dlp

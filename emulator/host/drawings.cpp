@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
 
 #include "emulator/control/base64.h"
+#include "emulator/dlp/panel_line.h"
+#include "emulator/dlp/printer.h"
 #include "emulator/filament/printer.h"
 #include "emulator/machine/disk_source.h"
 #include "emulator/resin/printer.h"
@@ -54,6 +57,24 @@ std::optional<Small> read_picture(const resin::ResinJob::Place& place) {
     return out;
 }
 
+/// What can be seen on a UV panel.
+Small read_panel(const dlp::UvPanel& panel) {
+    constexpr std::uint32_t by = std::max(dlp::panel_columns, dlp::panel_lines) / Drawings::most_side + 1;
+    Small out{(dlp::panel_columns + by - 1) / by, (dlp::panel_lines + by - 1) / by, {}};
+    out.greys.resize(std::size_t{out.width} * out.height);
+    const unsigned bank = dlp::bank_of(panel.fpga().command());
+    std::array<unsigned char, dlp::panel_columns / 8> row{};
+    for (std::uint32_t y = 0; y < dlp::panel_lines; ++y) {
+        panel.white() ? row.fill(0xFF) : dlp::take_pixels(panel.fpga().line(bank, y), row);
+        for (std::uint32_t x = 0; x < dlp::panel_columns; ++x) {
+            if ((row[x / 8] & 0x80U >> x % 8) != 0) {
+                out.greys[std::size_t{y / by} * out.width + x / by] = 255;
+            }
+        }
+    }
+    return out;
+}
+
 double shown(double mm) {
     return std::round(mm * 100) / 100;
 }
@@ -72,14 +93,13 @@ Drawings::~Drawings() {
     }
 }
 
-Json Drawings::whole() {
-    Json out = way(true);
-    return out.is_null() ? picture(true) : out;
-}
-
-Json Drawings::news() {
-    Json out = way(false);
-    return out.is_null() ? picture(false) : out;
+Json Drawings::look(bool whole) {
+    for (const auto draw : {&Drawings::way, &Drawings::picture, &Drawings::panel_picture}) {
+        if (Json out = (this->*draw)(whole); !out.is_null()) {
+            return out;
+        }
+    }
+    return nullptr;
 }
 
 Json Drawings::way(bool whole) {
@@ -115,9 +135,10 @@ Json Drawings::picture(bool whole) {
         return nullptr;
     }
     const std::string layer = fmt::format("{} {} ", place->path, place->layer);
+    const auto layers = place->file.header().layers;  // behind the last one the place is one more
     Json out{{"lit", lit},
-             {"words", fmt::format("Layer {} of {}, {}", place->layer + 1, place->file.header().layers,
-                                   lit ? "the LED shines" : "dark")}};
+             {"words", fmt::format("Layer {} of {}, {}", std::min<std::uint64_t>(place->layer + 1, layers),
+                                   layers, lit ? "the LED shines" : "dark")}};
     if (whole || !told_.starts_with(layer)) {
         if (const auto small = read_picture(*place)) {
             out["width"] = small->width;
@@ -126,6 +147,39 @@ Json Drawings::picture(bool whole) {
         }
     }
     told_ = std::move(now);
+    return {{"picture", std::move(out)}};
+}
+
+/// Of a board whose panel lies behind an FPGA: what it has, whatever the file says.
+Json Drawings::panel_picture(bool whole) {
+    const auto* const printer = machine::as<dlp::Printer>(std::as_const(board_).machine());
+    if (printer == nullptr) {
+        return nullptr;
+    }
+    const dlp::MksBoard& mks = printer->board;
+    const bool seen = mks.panel.showing();
+    const bool lit = mks.lamp.on();
+    const std::string what = !seen ? ""
+                             : mks.panel.white()
+                                 ? "white"
+                                 : mks.panel.fpga().md5(dlp::bank_of(mks.panel.fpga().command()));
+    std::string words = !seen ? "The panel is dark"
+                        : mks.print.active()
+                            ? fmt::format("Layer {} of {}", mks.print.layer(), mks.print.layers())
+                            : "Not of a print";
+    words += lit ? ", the lamp shines" : ", the lamp is out";
+    const std::string now = fmt::format("{} {}", what, words);
+    if (whole ? !seen && !lit : now == told_) {
+        return nullptr;
+    }
+    Json out{{"lit", lit}, {"words", std::move(words)}};
+    if (seen && (whole || !told_.starts_with(what + " "))) {
+        const Small small = read_panel(mks.panel);
+        out["width"] = small.width;
+        out["height"] = small.height;
+        out["greys"] = control::to_base64(small.packed());
+    }
+    told_ = now;
     return {{"picture", std::move(out)}};
 }
 

@@ -145,6 +145,40 @@ def chitu(folder, page):
         page.wait(lambda: page.find('.plot[data-unit="mm"] canvas'), 'the curve of the height')
 
 
+def own_screen(folder, page):
+    """A board with a screen of its own: its pixels, with its controls to press, and no line to talk on."""
+    with Program(PROGRAM, 'run', '--profile', 'mks-dlp', '--speed', '10', '--web', f'127.0.0.1:0/{TOKEN}', folder=folder) as board:
+        page.open(board.ready['web'], '#/0/screen')
+        page.wait(lambda: page.find('.face.pixels img') and page.find('.face.pixels img').size['width'] > 200, 'its pixels')
+        page.wait(lambda: page.find('.spot[title="FILES"]'), 'its controls').click()
+        page.wait(lambda: page.find('.spot[title*="ack"]') or page.find('.spot[title*="BACK"]'), 'the page of files')
+        page.go('print')
+        page.driver.execute_async_script(
+            'const done = arguments[0]; window.board.op("do", {do: {"uvtest.image": {n: 3}}})'
+            '.then(() => window.board.op("advance", {by: 10}))'
+            '.then(() => window.board.op("do", {do: {"uvtest.display": {on: true}}}))'
+            '.then(() => window.board.op("do", {do: {"uvtest.light": {on: true}}})).then(done, done)')
+        page.wait(lambda: page.find('canvas.layer.lit'), 'what the panel lets through')
+        white = page.driver.execute_script(
+            'const layer = document.querySelector("canvas.layer");'
+            'const bytes = layer.getContext("2d").getImageData(0, 0, layer.width, layer.height).data;'
+            'return bytes.filter((value, i) => i % 4 === 0 && value === 255).length / (bytes.length / 4)')
+        if not 0.1 < white < 0.9:
+            raise Failed(f'six blocks are to be seen, and {white:.0%} of the picture is white')
+        if page.find('#line').is_displayed():
+            raise Failed('a board without a line has one: ' + page.text('#line'))
+
+
+def no_screen(folder, page):
+    """A board whose screen nobody knows: every view all the same."""
+    with start(folder, '--profile', 'marlin') as board:
+        page.open(board.ready['web'])
+        page.wait_text('main.overview', 'No screen is known')
+        page.wait_text('.talk', 'echo:SD card ok')
+        for view in ('screen', 'curves', 'print', 'machine', 'faults', 'scenario', 'talk'):
+            page.go(view)
+
+
 def write_cbddlp(path, layers=4, width=1440, height=2560):
     """A cube in the form that ChiTu boards print, version 1: header, layer table, pictures of runs."""
     def runs():
@@ -210,7 +244,7 @@ def paint(folder, page):
         print('  first paint: ' + ', '.join(f'{each:.0f}' for each in times) + ' ms')
 
 
-CASES = [a30t, print_to_end, restart, markup, chitu, fleet, paint]
+CASES = [a30t, print_to_end, restart, markup, chitu, own_screen, no_screen, fleet, paint]
 #: What the browser itself writes when a board goes away, as it must in that case.
 EXPECTED = {'restart': ('ERR_', 'Failed to load resource')}
 

@@ -115,7 +115,7 @@ TEST_CASE("check: no JSON, another kind of file, no file") {
     CHECK(sentences(check_file(other.path())) ==
           other.path() +
               ":1: /$schema: unknown kind of file; expected the path of profile.schema.json or "
-              "screen.schema.json or scenario.schema.json\n");
+              "screen.schema.json or scenario.schema.json or fleet.schema.json\n");
     CHECK_FALSE(check_file("/no/such/file.json").readable);
     CHECK_FALSE(check_file("no-such-profile").readable);
     CHECK_FALSE(check_file("/").readable);

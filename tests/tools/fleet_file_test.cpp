@@ -3,13 +3,21 @@
 #include <doctest/doctest.h>
 
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "emulator/behaviour/source.h"
 #include "tests/link/helpers.h"
+#include "tools/check_files.h"
 
 namespace fauxboard::tools {
 namespace {
+
+nlohmann::json schema() {
+    std::ifstream in(FAUXBOARD_SOURCE_DIR "/profiles/schemas/fleet.schema.json", std::ios::binary);
+    return nlohmann::json::parse(in);
+}
 
 Fleet read(const std::string& text) {
     link::test::TemporaryFolder folder;
@@ -66,6 +74,35 @@ TEST_CASE("what is wrong is told with its place") {
         CHECK(refusal(each.text).find(each.says) != std::string::npos);
     }
     CHECK_THROWS_AS(read_fleet("no-such-file.json"), behaviour::ProfileError);
+}
+
+std::vector<std::string> check(const std::string& text) {
+    const link::test::TemporaryFolder folder;
+    const std::string file = folder.file("fleet.json");
+    std::ofstream(file) << text;
+    std::vector<std::string> said;
+    for (const behaviour::Problem& problem : check_file(file).problems) {
+        said.push_back(problem.pointer + ": " + problem.message);
+    }
+    return said;
+}
+
+TEST_CASE("check knows a fleet by its boards, and looks at their profiles, too") {
+    CHECK(
+        check(R"({"boards": [{"profile": "geeetech-a30t", "count": 3, "name": "left-{n}", "pty": "/tmp/x/{n}",
+        "seed": 5, "pacing": false, "host_tcp": ":0", "udp": ":0", "sd": "a", "udisk": "b", "eeprom": "c{n}",
+        "control": "d{n}", "faults": ["drop:every=5", {"kind": "jam"}], "comment": "all keys"},
+        {"tcp": ":0", "host_pty": "x"}, {"name": "b", "port": "p", "host_port": "q"}]})")
+            .empty());
+    CHECK(check(R"({"$schema": "../schemas/fleet.schema.json", "boards": [{"profile": "geeetech-a30x"}]})")
+              .size() == 1);
+    for (const char* wrong : {R"({"boards": []})", R"({"boards": [{"profil": "x"}]})",
+                              R"({"boards": [{"count": 0}]})", R"({"boards": [{"pty": "a", "tcp": ":0"}]})",
+                              R"({"boards": [{"faults": "drop"}]})", R"({"boards": [{"name": 7}]})"}) {
+        CAPTURE(wrong);
+        CHECK(check(wrong).size() == 1);  // what the loader has told, the schema does not tell again
+        CHECK_FALSE(check_schema(schema(), nlohmann::json::parse(wrong)).empty());
+    }
 }
 
 }  // namespace

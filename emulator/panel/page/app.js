@@ -110,7 +110,7 @@ function draw_line() {
     say(line, line_words[state] || state);
     line.className = 'badge ' + (state === 'up' ? 'good' : 'idle');
     line.title = [board.link.kind, board.link.path, board.link.why].filter(Boolean).join(' · ');
-    show(line, true);
+    show(line, board.link.kind !== 'none');  // a board without a line
 }
 
 // --- keys: a digit opens the view of that place ---

@@ -56,7 +56,7 @@ export function mount(root, board, {small = false} = {}) {
         say(note, view.note || '');
     }
 
-    const end_screen = board.on('screen', message => draw(message.screen));
+    const end_screen = board.on('screen', message => message.screen && draw(message.screen));
     const unsubscribe = board.subscribe('screen');
     let end_pixels = null, ended = false;
     board.op('screen').then(answer => {

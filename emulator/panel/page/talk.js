@@ -45,7 +45,7 @@ export function mount(root, board, {small = false} = {}) {
             return;
         }
         row.marks = row.marks || [];
-        row.body = h('div', {class: 'said'}, h('code', null, row.line), row.words ? h('small', null, row.words) : null);
+        row.body = h('div', {class: 'said'}, h('code', null, row.line), row.words && !row.words.startsWith('unknown "') ? h('small', null, row.words) : null);  // else it says the line again
         row.element = h('div', {class: 'row ' + row.side}, h('time', null, row.t.toFixed(3)), h('span', {class: 'who'}, row.who), row.body);
         row.text = (row.who + ' ' + row.line + ' ' + (row.words || '')).toLowerCase();
         for (const mark of row.marks) draw_mark(row, mark);
