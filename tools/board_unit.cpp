@@ -98,9 +98,14 @@ void BoardUnit::set_up() {
     }
 }
 
+/// A fault that names no line is for the one that was asked for: the USB side, where only that was.
 void BoardUnit::add_faults() {
+    const bool usb_alone = host_link_ && !options_.line_given;
     for (const std::string& text : options_.faults) {
-        const fault::FaultSpec spec = fault::fault_from_text(text);
+        fault::FaultSpec spec = fault::fault_from_text(text);
+        if (!spec.line && usb_alone && !fault::is_for_printer(spec)) {
+            spec.line = fault::Line::usb;
+        }
         if (!fault::is_for_printer(spec)) {
             faults_->add(spec);
         } else if (board_->machine().faults.add(SimTime{0}, fault::to_request(spec)) == 0) {

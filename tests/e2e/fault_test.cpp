@@ -259,14 +259,17 @@ TEST_CASE("a disconnection takes the pty away and brings it back under its name;
     CHECK_FALSE(std::filesystem::exists(std::filesystem::symlink_status(name)));
 }
 
-TEST_CASE("a board with the USB side alone has faults there, and one with both says where one was") {
-    Program alone({"run", "-q", "--profile", "marlin", "--host-pty", "--fault", "garble:to_board,every=2"});
-    Peer host(alone.ready()["host"]["path"]);
-    host.say("N0 M110 N0*125\nN1 M105*38\n");
-    CHECK(contains(host.lines().find("Resend:"), "Resend: 1"));
-    CHECK(alone.stop() == 0);
-
-    Program both({"run", "-q", "--host-pty", "--fault", "garble:to_board,every=2"});
+TEST_CASE("a fault is on the line that was asked for, and where both were it says on which it was") {
+    for (const char* profile : {"marlin", "geeetech-a30t"}) {
+        CAPTURE(profile);
+        Program alone(
+            {"run", "-q", "--profile", profile, "--host-pty", "--fault", "garble:to_board,every=2"});
+        Peer host(alone.ready()["host"]["path"]);
+        host.say("N0 M110 N0*125\nN1 M105*38\n");
+        CHECK(contains(host.lines().find("Resend:"), "Resend: 1"));
+        CHECK(alone.stop() == 0);
+    }
+    Program both({"run", "-q", "--pty", "--host-pty", "--fault", "garble:to_board,every=2"});
     both.ready();
     CHECK(both.stop() == 0);
     CHECK(contains(both.errors(), "never acted. It was for the main line; line=usb is the USB side.\n"));
@@ -275,7 +278,7 @@ TEST_CASE("a board with the USB side alone has faults there, and one with both s
 TEST_CASE("the USB side has faults of its own, and the main line none of them") {
     const TemporaryFolder folder;
     Program program({"run", "--no-pacing", "-q", "--host-pty", "--control=" + folder.file("ctl"), "--fault",
-                     "garble:to_board,every=2,line=usb", "--fault", "drop:to_board,count=1"});
+                     "garble:to_board,every=2,line=usb", "--fault", "drop:to_board,count=1,line=main"});
     const auto ready = program.ready();
     Peer screen(ready["path"]);
     Peer host(ready["host"]["path"]);
