@@ -218,7 +218,11 @@ void Board::take_line(Channel channel, std::string_view line) {
     }
     tell_received(channel, line, verdict);
     if (verdict == Verdict::accepted && !waits) {
-        machine_->advance(time_);
+        if (std::exchange(idle_before_, nowhen) > time_) {
+            machine_->pass(time_);
+        } else {
+            machine_->advance(time_);
+        }
         execute(channel, body);
         settle();
         run_host();
@@ -262,7 +266,7 @@ SimTime Board::next_due() const {
     }
     const SimTime slot = schedule_.next_slot() <= time_ ? schedule_.next_slot()
                                                         : schedule_.next_due(scope(), machine_->restless());
-    return std::min({machine_->next_event(), next_tick(), slot, unfinished_due_, front_due()});
+    return machine::earliest(machine_->next_event(), next_tick(), slot, unfinished_due_, front_due());
 }
 
 /// A time before which nothing is due, found without asking which of the schedule's slots may send.
@@ -270,8 +274,8 @@ SimTime Board::nothing_before() const {
     if (machine_->hung()) {
         return machine_->next_event();
     }
-    return std::min(
-        {machine_->next_event(), next_tick(), schedule_.next_slot(), unfinished_due_, front_due()});
+    return machine::earliest(machine_->next_event(), next_tick(), schedule_.next_slot(), unfinished_due_,
+                             front_due());
 }
 
 /// Goes through the slots before `end`. Those passed over because nothing could come of them are among them,
@@ -356,7 +360,7 @@ void Board::step(SimTime due) {
 
 void Board::catch_up(SimTime now) {
     // With so much output untaken the slots stand still; they go on, late, when it has been taken.
-    while (nothing_before() < now && port(Channel::main).output.size() < output_limit) {
+    while ((idle_before_ = nothing_before()) < now && port(Channel::main).output.size() < output_limit) {
         const SimTime due = next_due();
         if (due >= now) {
             // Nothing comes of the slots up to here. They are gone through now, else the next call would find

@@ -287,6 +287,8 @@ class Board final : private behaviour::NoticeSink, private machine::FileCommands
     SimTime time_{0};
     SimTime power_on_{0};
     SimTime last_tick_{0};
+    SimTime idle_before_ =
+        nowhen;  ///< nothing falls due before that; known from catching up to the first change
     SimTime unfinished_due_ = machine::never;  ///< when an unfinished line of the main line counts as whole
     std::set<std::string, std::less<>> told_;  ///< unknown codes already warned of, bounded
 };

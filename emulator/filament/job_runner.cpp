@@ -240,7 +240,7 @@ void JobRunner::execute() {
     on_.commands.begun = this;
     machine::FileCommands* const rules = on_.commands.of_files;
     const bool by_rule = rules != nullptr && rules->carry_out(text_, line_.letter, line_.code);
-    unknown_codes_ += by_rule || run_code(false) ? 0 : 1;
+    unknown_codes_ += by_rule || run_code(false) ? 0U : 1U;
     on_.commands.begun = nullptr;
     if (code_ != nullptr && code_->needs == Needs::room) {
         on_.host.go_on();

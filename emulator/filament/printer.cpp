@@ -72,9 +72,9 @@ void Printer::run_parts(SimTime now) {
 }
 
 SimTime Printer::next_of_parts() const {
-    return std::min({motion.next_event(), feeder.next_event(), wait.next_event(), next_of_job(),
-                     host.next_event(now()), recovery.next_event(now()), thermal.next_alarm_check(),
-                     reports.next_event(), motors_rest_});
+    return machine::earliest(motion.next_event(), feeder.next_event(), wait.next_event(), next_of_job(),
+                             host.next_event(now()), recovery.next_event(now()), thermal.next_alarm_check(),
+                             reports.next_event(), motors_rest_);
 }
 
 SimTime Printer::next_of_job() const {

@@ -77,6 +77,10 @@ void Machine::advance(SimTime now) {
         }
         run_parts(next);
     }
+    pass(now);
+}
+
+void Machine::pass(SimTime now) {
     let_pass(now);
     now_ = now;
     faults.advance(now);  // what somebody has seen to is over
@@ -84,7 +88,7 @@ void Machine::advance(SimTime now) {
 
 SimTime Machine::next_event() const {
     const SimTime fault = faults.next_event();
-    return hung_ ? fault : std::min({next_of_parts(), card_check_, card_rescan_, timer_, user_until_, fault});
+    return hung_ ? fault : earliest(next_of_parts(), card_check_, card_rescan_, timer_, user_until_, fault);
 }
 
 void Machine::look_after_card(SimTime now) {

@@ -42,6 +42,8 @@ class Machine : public JobControl {
 
     /// Brings everything up to `now` and raises the events due. Steps may have any length.
     void advance(SimTime now);
+    /// The same where next_event() is known to be later than `now`.
+    void pass(SimTime now);
     /// When advance() must next be called because an event falls due; `never` if nothing is under way.
     SimTime next_event() const;
     /// Whether anything the board shows may change by the mere passing of time.

@@ -11,6 +11,13 @@ using SimTime = std::chrono::microseconds;
 /// "No such moment": what `next_*()` functions return when nothing is due.
 inline constexpr SimTime never = SimTime::max();
 
+/// The first of several moments. It is asked for with every request: no list is made, and no loop runs.
+template <class... Times>
+constexpr SimTime earliest(SimTime first, Times... others) {
+    ((first = others < first ? others : first), ...);
+    return first;
+}
+
 /// Seconds as a double, for physics and for recordings.
 inline constexpr double to_seconds(SimTime t) {
     return std::chrono::duration<double>(t).count();
