@@ -13,9 +13,18 @@ test_packages=(doctest-dev libbenchmark-dev libclang-rt-dev printrun-common pyth
 # Of these only the files are taken: what they depend on is for uses that nobody has here.
 header_packages=(libvalijson-dev)
 
+# as_root COMMAND...
+as_root() {
+    if [ "$(id -u)" -eq 0 ]; then
+        "$@"
+    else
+        sudo "$@"
+    fi
+}
+
 # install PACKAGE...: those of them that are missing.
 install() {
-    local package missing=() as_root=()
+    local package missing=()
     for package in "$@"; do
         [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)" = installed ] || missing+=("$package")
     done
@@ -26,12 +35,16 @@ install() {
     fi
     if [ "$(id -u)" -ne 0 ]; then
         command -v sudo >/dev/null || { echo "Please install: ${missing[*]}" >&2; exit 1; }
-        as_root=(sudo)
     fi
     say "Installing ${missing[*]}"
-    "${as_root[@]}" apt-get update -qq
-    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"
+    as_root apt-get update -qq
+    as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"
     unpack
+}
+
+# fetch PACKAGE: its file into this folder; the lists of what there is may be missing, or old.
+fetch() {
+    apt-get download -qq "$1" 2>/dev/null || { as_root apt-get update -qq && apt-get download -qq "$1"; }
 }
 
 # The files of the header packages, into .packages in this checkout, if nobody has installed them.
@@ -43,7 +56,9 @@ unpack() {
         say "Unpacking the headers of $package"
         folder=$(mktemp -d)
         chmod 755 "$folder"  # apt fetches as a user of its own
-        (cd "$folder" && apt-get download -qq "$package" && dpkg-deb -x ./*.deb "$top/.packages")
+        if ! (cd "$folder" && fetch "$package" && dpkg-deb -x ./*.deb "$top/.packages"); then
+            as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "$package"
+        fi
         rm -rf "$folder"
         touch "$top/.packages/$package"
     done
