@@ -78,6 +78,9 @@ void World::on_received(SimTime now, Channel channel, std::string_view line, boa
     ++ledger_.lines_heard;
     ++requests_;
     note(line);
+    if (line.find("M24") != std::string_view::npos || line.find("M26") != std::string_view::npos) {
+        new_job();  // with an S it is told to go on elsewhere
+    }
     std::array<char, protocol::max_line_bytes> room;
     const std::string_view kept = protocol::read_host_line(line, room, protocol::max_line_bytes);
     const bool blank = kept.find_first_not_of(" \t\r") == std::string_view::npos;
@@ -248,7 +251,8 @@ void World::say(Channel channel, std::string_view bytes) {
 void World::command(std::string_view body) {
     const std::string line = fmt::format("N{} {}", ++line_number_, body);
     say(Channel::host, fmt::format("{}*{}\n", line, checksum(line)));
-    line_number_ = board_->machine().host_side().line().last;  // one that was not taken is not counted
+    // One that was not taken is not counted. Not that of whichever line spoke last.
+    line_number_ = board_->machine().host_side().lines[machine::HostSide::usb_port].last;
 }
 
 void World::datagram(std::uint64_t peer, std::string_view bytes) {
@@ -409,6 +413,10 @@ void World::peace() {
     pass(rest);
     for (int i = 0; i < 50 && board_->machine().job.waits_for_user; ++i) {
         tinker([](machine::Machine& machine) { machine.user_continues(); });
+        pass(rest);
+    }
+    // At the slowest speed that can be set a few moves take days, and what is asked waits behind them.
+    for (int i = 0; i < 500 && ledger_.commands_acknowledged < ledger_.commands_taken; ++i) {
         pass(rest);
     }
     if (board_->machine().hung()) {
