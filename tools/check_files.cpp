@@ -137,7 +137,7 @@ void check_form(const behaviour::Document& document, const SourceText& source, c
         return;
     }
     const std::vector<Problem> by_loader = out.problems;
-    for (const SchemaError& error : check_schema(*schema, behaviour::parse_json(source.text))) {
+    for (const SchemaError& error : check_schema(*schema, document.root)) {
         if (!told(by_loader, source.name, error.pointer)) {
             out.problems.push_back(document.problem(error.pointer, "against the schema: " + error.message));
         }

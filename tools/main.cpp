@@ -1,18 +1,21 @@
 // The `fauxboard` command: its subcommands, help, and what its exit code tells.
 
 #include <fcntl.h>
+#include <unistd.h>
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <memory>
 #include <new>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "emulator/host/profile_files.h"
@@ -120,10 +123,30 @@ void ignore_deadly_signals() {
     std::signal(SIGXFSZ, SIG_IGN);  // a file as large as RLIMIT_FSIZE allows is then like a full disk
 }
 
-/// The last word on an error that nobody handled. Out of memory is one of the system's.
+/// Out of memory is one of the system's errors. Whatever has to be done then has to do without any.
+[[noreturn]] void end_without_memory() {
+    constexpr std::string_view sentence = "fauxboard: There is not enough memory for this.\n";
+    (void)!::write(STDERR_FILENO, sentence.data(), sentence.size());
+    std::_Exit(static_cast<int>(ExitCode::bad_input));
+}
+
+/// Destructors that need memory end here when there is none.
+[[noreturn]] void terminated() {
+    if (const std::exception_ptr error = std::current_exception()) {
+        try {
+            std::rethrow_exception(error);
+        } catch (const std::bad_alloc&) {
+            end_without_memory();
+        } catch (...) {
+        }
+    }
+    std::abort();
+}
+
+/// The last word on an error that nobody handled.
 ExitCode last_word(const std::exception& error) {
     if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) {
-        return complain("", ExitCode::bad_input, "There is not enough memory for this.");
+        end_without_memory();
     }
     return complain("", ExitCode::internal, std::string("a bug, please report it: ") + error.what());
 }
@@ -132,6 +155,7 @@ ExitCode last_word(const std::exception& error) {
 }  // namespace fauxboard::tools
 
 int main(int argc, char** argv) {
+    std::set_terminate(fauxboard::tools::terminated);
     try {
         fauxboard::tools::ignore_deadly_signals();
         fauxboard::tools::fill_standard_descriptors();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <iterator>
 
@@ -40,7 +41,9 @@ ExitCode exit_code(Outcome::Verdict verdict) {
 
 /// What passed last, for a person who reads what failed.
 std::string talk_text(const Outcome& outcome) {
-    static constexpr std::string_view talkers[] = {"board → screen", "screen → board", "event"};
+    static constexpr std::array<std::string_view, 5> talkers{"board → screen", "screen → board", "event",
+                                                             "board → host", "host → board"};
+    static_assert(static_cast<std::size_t>(script::Talk::From::host) + 1 == talkers.size());
     std::string out;
     const std::size_t from = outcome.talk.size() - std::min(outcome.talk.size(), shown_talk);
     for (std::size_t i = from; i < outcome.talk.size(); ++i) {

@@ -282,8 +282,11 @@ std::shared_ptr<const Profile> Loader::load() {
                                    style_,
                                    commands ? protocol::LineEnd::lf : protocol::LineEnd::crlf};
         FrameLoader loader(findings_, context);
-        for (Frame& frame : profile_->frames) {
-            loader.load(n[frame.name], frames.pointer(frame.name), frame);
+        // In the order of the object, each where it stands: looking them up would be slow for very many.
+        for (const auto& [name, value] : n.items()) {
+            if (const auto at = frame_index_.find(name); at != frame_index_.end()) {
+                loader.load(value, frames.pointer(name), profile_->frames[at->second]);
+            }
         }
         profile_->code_cells = loader.cells();
     });

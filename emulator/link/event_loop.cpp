@@ -21,6 +21,7 @@ namespace {
 
 constexpr std::uint32_t read_events = EPOLLIN | EPOLLRDHUP | EPOLLET;
 constexpr int forever = -1;
+constexpr int unarmed_ms = 10;  ///< between two looks at the moments while there is no alarm for them
 
 [[noreturn]] void fail(const char* what) {
     throw LinkError(fmt::format("The event loop has no {}: {}.", what, error_text(errno)));
@@ -74,9 +75,13 @@ bool EventLoop::turn(int wait_ms) {
     bool done = run_tasks();
     if (stopped_) return done;
     if (done || !tasks_.empty() || !due_.empty()) wait_ms = 0;
-    arm_alarm();
+    bool alarm = !arm_alarm();  // without one the moments are looked at ever so often
+    wait_ms = alarm && (wait_ms == forever || wait_ms > unarmed_ms) ? unarmed_ms : wait_ms;
     const int count = ::epoll_wait(epoll_.get(), events_.data(), static_cast<int>(events_.size()), wait_ms);
-    bool alarm = false;
+    if (count < 0 && errno != EINTR) {
+        throw LinkError(fmt::format("The event loop cannot wait: {}.", error_text(errno)));
+    }
+    alarm |= count < 0;
     for (int i = 0; i < count; ++i) {  // nobody is called meanwhile, so all of them are still there
         const epoll_event& event = events_[static_cast<std::size_t>(i)];
         auto* const watch = static_cast<Watch*>(event.data.ptr);
@@ -111,19 +116,20 @@ bool EventLoop::run_tasks() {
 
 // An alarm that comes too early costs one turn; moving it costs a system call each time, and most moments
 // that are asked for are put off before they come.
-void EventLoop::arm_alarm() {
+bool EventLoop::arm_alarm() {
     auto first = Timer::unset;
     for (const Timer* timer : timers_)
         first = std::min(first, timer->when_);
-    if (first >= armed_) return;
-    armed_ = first;
+    if (first >= armed_) return true;
     // 0 would disarm it.
     const auto ns = std::max<std::int64_t>(
         1, std::chrono::duration_cast<std::chrono::nanoseconds>(first.time_since_epoch()).count());
     itimerspec moment{};
     moment.it_value.tv_sec = static_cast<time_t>(ns / 1'000'000'000);
     moment.it_value.tv_nsec = static_cast<long>(ns % 1'000'000'000);
-    (void)::timerfd_settime(alarm_.get(), TFD_TIMER_ABSTIME, &moment, nullptr);
+    const bool armed = ::timerfd_settime(alarm_.get(), TFD_TIMER_ABSTIME, &moment, nullptr) == 0;
+    armed_ = armed ? first : Timer::unset;
+    return armed;
 }
 
 // Each timer once: one that is set to a moment that is past waits for the next turn.

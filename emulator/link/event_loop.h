@@ -61,7 +61,7 @@ class EventLoop {
     bool turn(int wait_ms);
     bool has_work() const;
     bool run_tasks();
-    void arm_alarm();
+    bool arm_alarm();
     bool ring_timers();
     bool call_watches();
     void queue(Watch& watch);

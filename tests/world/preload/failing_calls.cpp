@@ -7,11 +7,13 @@
 
 #include <dlfcn.h>
 #include <fcntl.h>
-#include <poll.h>
 #include <sys/epoll.h>
+#include <sys/file.h>
 #include <sys/inotify.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/timerfd.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -47,8 +49,21 @@ Function next(const char* name) {
     return reinterpret_cast<Function>(::dlsym(RTLD_NEXT, name));
 }
 
+/// What libraries do before main() is theirs, and not counted.
+using Main = int(int, char**, char**);
+Main* real_main = nullptr;
+std::atomic<bool> begun{false};
+
+int main_begins(int argc, char** argv, char** environment) {
+    begun = true;
+    return real_main(argc, argv, environment);
+}
+
 /// Whether this call of `name` is to fail; errno is set then.
 bool fails(const char* name) {
+    if (!begun) {
+        return false;
+    }
     Plan& p = plan();
     if (p.call == nullptr || std::strcmp(p.call, name) != 0) {
         return false;
@@ -104,9 +119,33 @@ FAUXBOARD_FAILING(int, listen, (int fd, int backlog), (fd, backlog), -1)
 FAUXBOARD_FAILING(ssize_t, sendto,
                   (int fd, const void* data, size_t size, int flags, const sockaddr* to, socklen_t to_size),
                   (fd, data, size, flags, to, to_size), -1)
-FAUXBOARD_FAILING(int, poll, (pollfd * fds, nfds_t count, int wait), (fds, count, wait), -1)
+FAUXBOARD_FAILING(ssize_t, send, (int fd, const void* data, size_t size, int flags), (fd, data, size, flags),
+                  -1)
+FAUXBOARD_FAILING(ssize_t, recv, (int fd, void* data, size_t size, int flags), (fd, data, size, flags), -1)
+FAUXBOARD_FAILING(ssize_t, recvfrom,
+                  (int fd, void* data, size_t size, int flags, sockaddr* from, socklen_t* from_size),
+                  (fd, data, size, flags, from, from_size), -1)
+FAUXBOARD_FAILING(int, posix_openpt, (int flags), (flags), -1)
+FAUXBOARD_FAILING(int, grantpt, (int fd), (fd), -1)
+FAUXBOARD_FAILING(int, tcgetattr, (int fd, termios* settings), (fd, settings), -1)
+FAUXBOARD_FAILING(int, tcsetattr, (int fd, int when, const termios* settings), (fd, when, settings), -1)
+FAUXBOARD_FAILING(int, symlink, (const char* to, const char* path), (to, path), -1)
+FAUXBOARD_FAILING(int, unlink, (const char* path), (path), -1)
+FAUXBOARD_FAILING(int, unlinkat, (int folder, const char* path, int flags), (folder, path, flags), -1)
+FAUXBOARD_FAILING(int, flock, (int fd, int operation), (fd, operation), -1)
+FAUXBOARD_FAILING(int, fstat, (int fd, struct stat* out), (fd, out), -1)
+FAUXBOARD_FAILING(int, fstatat, (int folder, const char* path, struct stat* out, int flags),
+                  (folder, path, out, flags), -1)
 FAUXBOARD_FAILING(int, pipe2, (int* ends, int flags), (ends, flags), -1)
 FAUXBOARD_FAILING(void*, malloc, (size_t size), (size), nullptr)
+
+extern "C" int __libc_start_main(Main* program, int argc, char** argv, void (*init)(), void (*fini)(),
+                                 void (*linker_fini)(), void* stack) {
+    static const auto real =
+        next<int (*)(Main*, int, char**, void (*)(), void (*)(), void (*)(), void*)>("__libc_start_main");
+    real_main = program;
+    return real(main_begins, argc, argv, init, fini, linker_fini, stack);
+}
 
 // With one optional argument.
 extern "C" int open(const char* path, int flags, ...) {
