@@ -73,9 +73,11 @@ class PtyLink final : public StreamLink {
 
 void PtyLink::open_device() {
     open_master();
+    const bool watched = watch_peers_ && watch_.start(path_);
+    if (!watched) hold_slave();
+    // Only now: who waits for the name opens it at once, and must be seen.
     if (!name_.empty()) link_.create(name_, path_);
-    if (!watch_peers_ || !watch_.start(path_)) {
-        hold_slave();
+    if (!watched) {
         attach(master_.get());
         return go_up(
             fmt::format("{} is open; there is no telling whether anybody is at the other end", path_));
