@@ -1,6 +1,7 @@
 // The head of a request to the panel, a line for each: method, path, Host, Origin, Sec-Fetch-Site; "-" is a
 // header that is not there, and TOKEN the secret.
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <string_view>
