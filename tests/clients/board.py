@@ -31,6 +31,7 @@ class Board:
             self.program = subprocess.Popen(self.arguments, stdout=subprocess.PIPE, stderr=log, text=True)
         ready = json.loads(self.program.stdout.readline().removeprefix("ready "))
         self.port = ready["host"]["path"]
+        self.line = ready.get("path")  # the screen's, where the board has one
         self.control = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
         self.control.connect(ready["control"])
         self.answers = self.control.makefile("r", encoding="utf-8")
