@@ -5,7 +5,7 @@ top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
 say() { printf '\n== %s\n' "$*"; }
 
-build_packages=(clang g++ cmake ninja-build pkg-config libserialport-dev nlohmann-json3-dev libspdlog-dev libfmt-dev
+build_packages=(clang g++ cmake ninja-build pkg-config libserialport-dev nlohmann-json3-dev libfmt-dev
                 libcli11-dev libvalijson-dev libncurses-dev libre2-dev libpng-dev doctest-dev libbenchmark-dev)
 test_packages=(libclang-rt-dev)
 
