@@ -17,6 +17,7 @@
 #include "tools/commands.h"
 #include "tools/fleet_file.h"
 #include "tools/option_values.h"
+#include "tools/ready_line.h"
 #include "tools/report.h"
 #include "tools/run_options.h"
 
@@ -130,7 +131,7 @@ class FleetRun {
         if (panel_) {
             ready["web"] = panel_->address();
         }
-        out_.write("ready " + ready.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) + "\n");
+        ready_.say(ready);
         err_.write(fmt::format(
             "This is fauxboard, an emulator: there are no real printers here.\n"
             "{} boards. Ctrl-C ends them.\n{}",
@@ -142,6 +143,7 @@ class FleetRun {
     link::EventLoop loop_;
     host::TextOutput out_;
     host::TextOutput err_;
+    ReadyLine ready_{loop_, out_};
     std::map<std::string, std::shared_ptr<const behaviour::Profile>>
         profiles_;  ///< by what the file calls them
     std::vector<std::unique_ptr<Member>> members_;

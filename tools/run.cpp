@@ -26,6 +26,7 @@
 #include "tools/board_unit.h"
 #include "tools/commands.h"
 #include "tools/profile_changes.h"
+#include "tools/ready_line.h"
 #include "tools/report.h"
 #include "tools/run_options.h"
 #include "tools/run_script.h"
@@ -35,7 +36,6 @@ namespace {
 
 /// What a person can still follow, per second. A real line has some twenty at most.
 constexpr double log_lines_per_second = 100;
-constexpr std::chrono::milliseconds ready_retry{50};
 
 /// Everything that one run needs, in the order in which it must come and (backwards) go.
 class Run {
@@ -65,7 +65,6 @@ class Run {
     ExitCode outcome();
     void say_ready();
     void watch_profile();
-    void see_ready_off();
     void warn_of_network();
     void reload();
     void on_signal(int number);
@@ -82,7 +81,7 @@ class Run {
     BoardUnit unit_;
     std::optional<panel::Panel> panel_;
     std::optional<host::ScriptHost> script_;
-    link::Timer ready_retry_{loop_, [this] { see_ready_off(); }};
+    ReadyLine ready_{loop_, out_};
     link::Signals signals_;
     host::ProfileWatch watch_;
     ProfileChanges changes_{options_.profile};
@@ -144,8 +143,7 @@ void Run::say_ready() {
     if (panel_) {
         ready["web"] = panel_->address();
     }
-    out_.keep("ready " + ready.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) + "\n");
-    see_ready_off();
+    ready_.say(ready);
     if (options_.json) {
         observers_.add(json_);  // not before: the ready line is the first
     }
@@ -163,18 +161,6 @@ void Run::watch_profile() {
         unit_.say(board::Level::info,
                   "this system does not tell of changed files; changes of the profile are "
                   "not noticed");
-    }
-}
-
-/// Until the line that scripts wait for has been taken. Where it never can be, nobody should wait.
-void Run::see_ready_off() {
-    if (!out_.flush()) {
-        return ready_retry_.after(ready_retry);
-    }
-    const int error = out_.error();
-    if (error != 0 && error != EPIPE && error != EBADF) {  // a closed stdout wants to hear nothing
-        throw link::HostError(fmt::format("The line \"ready\" cannot be written to stdout ({}).",
-                                          std::system_category().message(error)));
     }
 }
 

@@ -96,6 +96,8 @@ Program::Program(const Args& args, Stdout out) {
     REQUIRE(errors_);
     if (out == Stdout::broken) {
         out_.reset();
+    } else if (out == Stdout::narrow_pipe) {
+        REQUIRE(::fcntl(ends[0], F_SETPIPE_SZ, 4096) == 4096);
     }
     pid_ = ::fork();
     REQUIRE(pid_ >= 0);

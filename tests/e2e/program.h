@@ -48,7 +48,7 @@ class LineReader {
 /// One run of the real program. Its stderr goes to a file. Killed at the end if it still runs.
 class Program {
   public:
-    enum class Stdout { pipe, closed, broken, full };
+    enum class Stdout { pipe, narrow_pipe, closed, broken, full };
     explicit Program(const Args& args, Stdout out = Stdout::pipe);
     ~Program();
     Program(const Program&) = delete;

@@ -85,6 +85,15 @@ TEST_CASE("a fleet: every board is there on a line of its own, and all go at onc
     CHECK(open(folder.file("left-1").c_str(), O_RDWR | O_NOCTTY) == -1);
 }
 
+TEST_CASE("a fleet: a ready line that is longer than its pipe comes whole") {
+    TemporaryFolder folder;
+    const std::string file = folder.file("fleet.json");
+    std::ofstream(file) << R"({"boards": [{"profile": "geeetech-a30t", "count": 200}]})";
+    Program fleet({"fleet", file, "--quiet"}, Program::Stdout::narrow_pipe);
+    CHECK(fleet.ready().at("boards").size() == 200);
+    CHECK(fleet.stop() == 0);
+}
+
 TEST_CASE("what cannot be is refused with a sentence") {
     TemporaryFolder folder;
     const std::string file = folder.file("fleet.json");
