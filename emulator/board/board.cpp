@@ -114,7 +114,7 @@ void Board::power_on(SimTime now) {
     for (const Send& entry : profile_->boot) {
         send(entry, scope());
     }
-    call_front([now](Front& front, ActionContext& context) { front.power_on(now, context); });
+    call_front([now](Front& front, ActionContext& told) { front.power_on(now, told); });
 }
 
 void Board::reload(std::shared_ptr<const behaviour::Profile> profile) {

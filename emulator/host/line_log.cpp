@@ -106,7 +106,7 @@ std::string LineLog::fit(std::string_view text, std::size_t column) const {
     }
     std::size_t end = 0;
     for (std::size_t kept = 0; kept < room; ++end) {  // to where the letter after the last one kept begins
-        kept += begins(text[end]) ? 1 : 0;
+        kept += begins(text[end]) ? 1U : 0U;
     }
     return std::string(text.substr(0, end - 1)) + "…";
 }
