@@ -143,7 +143,7 @@ TEST_CASE("killed at any moment, the EEPROM holds what the chip would, and the b
             dlp::block_bytes(block, dlp::default_kept(dlp::Firmware::v001), dlp::Firmware::v001);
         std::copy(bytes.begin(), bytes.end(), whole.begin() + dlp::address_of(block));
     }
-    for (int kill = 0; kill < 20; ++kill) {
+    for (int kill = 0; kill < 100; ++kill) {
         if (kill % 5 == 0) {
             std::filesystem::remove(file);
         }
