@@ -89,7 +89,7 @@ TEST_CASE("SPI records: what is none is left out, and the next one is found") {
         splitter.feed(junk + good + good + good);
         std::size_t found = 0;
         while (const auto record = splitter.next()) {
-            found += record->kind == SpiKind::pin && record->number == 3 ? 1 : 0;
+            found += record->kind == SpiKind::pin && record->number == 3 ? 1U : 0U;
         }
         CHECK(found >= 2);  // half a record takes the beginning of the next for its rest
         CHECK(splitter.waiting() < spi_head_bytes + spi_most_data);

@@ -143,7 +143,7 @@ TEST_CASE("a made-up kind: the reference knows it, and a wrong name of a kind is
 TEST_CASE("a made-up kind takes four files in its folder, one row of CMake, and a profile") {
     std::size_t own = 0;
     for (const auto& file : files_in({"tests/kinds/beacon"})) {
-        own += file.extension() == ".h" || file.extension() == ".cpp" ? 1 : 0;
+        own += file.extension() == ".h" || file.extension() == ".cpp" ? 1U : 0U;
     }
     CHECK(own == 4);
     for (const auto& file : files_in({"emulator", "protocol", "tools", "profiles"})) {
