@@ -227,7 +227,7 @@ class OwnTour {
         note(after);
         const std::string settled = place_of(settle());
         if (touched_[from][key_of(control)].insert(state).second) {
-            open_[from] -= open_[from] > 0 ? 1 : 0;
+            open_[from] -= open_[from] > 0 ? 1U : 0U;
             const bool known = std::any_of(outcomes_.begin(), outcomes_.end(), [&](const Outcome& one) {
                 return one.from == from && one.control == name && one.to == outcome.to;
             });

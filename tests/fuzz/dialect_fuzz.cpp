@@ -50,10 +50,10 @@ class Counter final : public board::Observer {
         std::array<char, 512> room;
         const bool blank = protocol::read_host_line(line, room, most_chars_).find_first_not_of(' ') ==
                            std::string_view::npos;
-        taken_[static_cast<std::size_t>(channel)] += verdict == board::Verdict::accepted && !blank ? 1 : 0;
+        taken_[static_cast<std::size_t>(channel)] += verdict == board::Verdict::accepted && !blank ? 1U : 0U;
     }
     void on_sent(SimTime, Channel channel, std::string_view line) override {
-        oks_[static_cast<std::size_t>(channel)] += line.starts_with("ok") ? 1 : 0;
+        oks_[static_cast<std::size_t>(channel)] += line.starts_with("ok") ? 1U : 0U;
     }
     void on_notice(SimTime, board::Level, std::string_view) override {}
 

@@ -60,8 +60,15 @@ TEST_CASE("mistakes in a board's own screen are told by place, with the nearest 
 
 TEST_CASE("the language of own screens: formats, pieces of texts, functions") {
     screen::ValueTable table;
-    table.add({.name = "n", .start = 3725});
-    table.add({.name = "file", .kind = screen::ValueKind::text, .start_text = "a.b.pws"});
+    screen::ValueInfo number;
+    number.name = "n";
+    number.start = 3725;
+    table.add(number);
+    screen::ValueInfo file;
+    file.name = "file";
+    file.kind = screen::ValueKind::text;
+    file.start_text = "a.b.pws";
+    table.add(file);
     const auto values = table.power_on();
     const std::vector<std::string> columns{"date"};
     const std::vector<std::string> cells{"2020-09-08 02:56"};
