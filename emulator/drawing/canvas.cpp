@@ -172,7 +172,7 @@ void Canvas::fill(std::span<const Outline> outlines, Color color) {
     bitmap.buffer = coverage.data();
     bitmap.num_grays = 256;
     bitmap.pixel_mode = FT_PIXEL_MODE_GRAY;
-    if (FT_Outline_Get_Bitmap(Font::get().library(), &shape, &bitmap) != 0) {
+    if (FT_Outline_Get_Bitmap(Font::get().freetype(), &shape, &bitmap) != 0) {
         return;
     }
     for (int y = 0; y < picture_.height; ++y) {

@@ -15,7 +15,7 @@ class Font {
   public:
     static Font& get();
 
-    FT_Library library() const { return library_; }
+    FT_Library freetype() const { return library_; }
     FT_Face face() const { return face_; }
     /// Makes glyphs of this size from line to line, squeezed to so much of their width.
     void set(double size, double squeeze);

@@ -14,6 +14,19 @@
 using namespace fauxboard;
 using namespace fauxboard::sliced;
 
+/// Full pixels of a layer that must be whole.
+static std::size_t lit_in(const SlicedFile& file, const ByteSource& source, std::uint32_t layer) {
+    auto lines = Scanlines::of_layer(file, source, layer);
+    REQUIRE(lines);
+    std::vector<std::uint32_t> row(lines->width());
+    std::size_t lit = 0;
+    while (lines->next(row)) {
+        lit += static_cast<std::size_t>(std::count(row.begin(), row.end(), 255U));
+    }
+    CHECK(lines->problem() == "");
+    return lit;
+}
+
 TEST_CASE("sample: the reader finds header and layers as they were wished for") {
     Sample wishes;
     wishes.layers = 7;
@@ -39,15 +52,7 @@ TEST_CASE("sample: the reader finds header and layers as they were wished for") 
     CHECK(ends.size() == 7);
     CHECK(*ends.rbegin() == bytes.size());
     CHECK_FALSE(file->layer(source, 7));
-    auto lines = Scanlines::of_layer(*file, source, 3);
-    REQUIRE(lines);
-    std::vector<std::uint32_t> row(lines->width());
-    std::size_t lit = 0;
-    while (lines->next(row)) {
-        lit += static_cast<std::size_t>(std::count(row.begin(), row.end(), 255U));
-    }
-    CHECK(lines->problem() == "");
-    CHECK(lit == 24 * 8);
+    CHECK(lit_in(*file, source, 3) == 24 * 8);
 }
 
 TEST_CASE("sample: layers are bounded, and small") {
@@ -66,13 +71,5 @@ TEST_CASE("sample: on an LCD of the wished size") {
     const auto file = SlicedFile::open(source);
     REQUIRE(file);
     CHECK(file->header().width == 1440);
-    auto lines = Scanlines::of_layer(*file, source, 1);
-    REQUIRE(lines);
-    std::vector<std::uint32_t> row(lines->width());
-    std::size_t lit = 0;
-    while (lines->next(row)) {
-        lit += static_cast<std::size_t>(std::count(row.begin(), row.end(), 255U));
-    }
-    CHECK(lines->problem() == "");
-    CHECK(lit == 1432U * 2552U);
+    CHECK(lit_in(*file, source, 1) == 1432U * 2552U);
 }
