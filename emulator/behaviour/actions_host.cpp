@@ -38,7 +38,7 @@ constexpr std::array table{
                "",
                "the command gets no acknowledgement",
                {},
-               [](ActionContext& c, Args) { c.machine.host_side().acknowledge(); }},
+               [](ActionContext& c, Args) { c.machine.host_side().leave_unanswered(); }},
     ActionInfo{"card.look_up", "", "finds the long path of a file or folder (M33): card.looked_up", name_args,
                look_up},
 };

@@ -24,8 +24,10 @@ class HostSide : public BegunCommand {
     struct Line {
         std::int64_t last = 0;      ///< number of the last good line
         std::uint64_t resends = 0;  ///< lines asked for again, since power-on
-        std::size_t waiting = 0;    ///< commands that wait for their turn; its owner says it
-        std::int64_t number = 0;    ///< of the command begun last, if it was numbered; the same
+        std::uint64_t unanswered =
+            0;                    ///< commands that by the dialect have no acknowledgement, since power-on
+        std::size_t waiting = 0;  ///< commands that wait for their turn; its owner says it
+        std::int64_t number = 0;  ///< of the command begun last, if it was numbered; the same
         bool numbered = false;
     };
 
@@ -51,6 +53,11 @@ class HostSide : public BegunCommand {
     virtual void over();
     /// What answered it was its acknowledgement as well ("ok T:..").
     void acknowledge() { acknowledged_ = true; }
+    /// By the dialect it has none.
+    void leave_unanswered() {
+        acknowledge();
+        ++line().unanswered;
+    }
 
     /// Whether a file of that line is open, so that its commands are kept and not carried out.
     virtual bool writing(std::size_t /*from*/) const { return false; }

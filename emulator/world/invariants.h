@@ -35,6 +35,10 @@ struct Place {
 };
 /// As the machine's values tell it; nothing when there is none, or on a machine that takes up no jobs.
 std::optional<Place> saved_place(const machine::Machine& machine);
+
+/// How many commands of the USB side had no acknowledgement since power-on because their dialect has none.
+std::uint64_t commands_without_ok(const machine::Machine& machine);
+
 /// The number of a field; nothing on a machine that has none.
 std::optional<double> number_of(const machine::Machine& machine, std::string_view path);
 

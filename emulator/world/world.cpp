@@ -112,6 +112,11 @@ void World::on_notice(SimTime now, board::Level level, std::string_view text) {
     note(text);
 }
 
+std::int64_t World::owed() const {
+    const std::uint64_t settled = ledger_.commands_acknowledged + commands_without_ok(board_->machine());
+    return static_cast<std::int64_t>(ledger_.commands_taken) - static_cast<std::int64_t>(settled);
+}
+
 /// Also when a command or a rule restarts it.
 void World::on_power_on(SimTime now) {
     if (listener_ != nullptr) {
@@ -384,8 +389,7 @@ void World::walk() {
         walk.asked_mm[0] += by[0];
         walk.asked_mm[1] += by[1];
         // As hosts do: a few ahead, and no more until it is acknowledged.
-        for (int waited = 0; ledger_.commands_taken - ledger_.commands_acknowledged > 4 && waited < 600;
-             ++waited) {
+        for (int waited = 0; owed() > 4 && waited < 600; ++waited) {
             pass(std::chrono::seconds(1));
         }
         pass(std::chrono::milliseconds(dice.below(200)));
@@ -416,7 +420,7 @@ void World::peace() {
         pass(rest);
     }
     // At the slowest speed that can be set a few moves take days, and what is asked waits behind them.
-    for (int i = 0; i < 500 && ledger_.commands_acknowledged < ledger_.commands_taken; ++i) {
+    for (int i = 0; i < 500 && owed() > 0; ++i) {
         pass(rest);
     }
     if (board_->machine().hung()) {

@@ -66,6 +66,8 @@ class World final : private board::Observer {
         ledger_.whole[path].insert(std::move(content));
     }
     void new_job() { ++ledger_.job_number; }
+    /// How many commands of the USB side still wait for their acknowledgement.
+    std::int64_t owed() const;
 
     const Cast& cast() const { return cast_; }
     board::Board& board() { return *board_; }
