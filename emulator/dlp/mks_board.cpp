@@ -53,11 +53,13 @@ MksBoard::MksBoard(const BoardConfig& config, Stick& stick, machine::EepromCells
       listener_(listener) {
     if (config.clock) {
         calendar.set(*config.clock, SimTime{0});
+        external_clock.calendar = calendar;
     }
 }
 
 void MksBoard::power_on(SimTime now) {
     now_ = started_ = now;
+    supplied_ = true;
     eeprom.cut();
     Kept kept = default_kept(config_.firmware);
     for (const Block block : all_blocks) {
@@ -70,6 +72,9 @@ void MksBoard::power_on(SimTime now) {
         if (block_states_[static_cast<std::size_t>(block)] != BlockState::good) {
             write_block(block, now);
         }
+    }
+    if (uses_external_clock()) {
+        calendar = external_clock.calendar;
     }
     platform.stop(now);
     platform.power_on();
@@ -102,6 +107,7 @@ void MksBoard::start_panel(SimTime now) {
 }
 
 void MksBoard::cut_power(SimTime now) {
+    supplied_ = false;
     eeprom.advance(now);
     eeprom.cut();
     panel.cut_power();
@@ -288,10 +294,7 @@ bool MksBoard::set_zero(SimTime now) {
         return false;
     }
     settings.general.zero_pos_mm = static_cast<float>(platform.position(now));
-    write_block(Block::general, now);
-    task_ = SetupTask::saving;
-    task_event_ = Event::platform_zero_set;
-    return true;
+    return keep_general(Event::platform_zero_set, now);
 }
 
 bool MksBoard::load_setup(std::string_view name, SimTime now) {
@@ -336,14 +339,49 @@ void MksBoard::end_setup(Event event) {
     raise(event);
 }
 
-bool MksBoard::save_setup(SimTime now) {
+bool MksBoard::keep_general(Event done, SimTime now) {
     if (task_ != SetupTask::none) {
         return false;
     }
     task_ = SetupTask::saving;
-    task_event_ = Event::setup_saved;
+    task_event_ = done;
     write_block(Block::general, now);
     return true;
+}
+
+bool MksBoard::save_setup(SimTime now) {
+    return keep_general(Event::setup_saved, now);
+}
+
+bool MksBoard::calibrate_touch(const std::array<GlassPoint, 3>& read, SimTime now) {
+    const auto calibration = calibrate(read, settings.general.rotate_display != 0);
+    if (!calibration || task_ != SetupTask::none) {
+        raise(Event::touch_not_calibrated);
+        return false;
+    }
+    settings.general.touch = *calibration;
+    return keep_general(Event::touch_calibrated, now);
+}
+
+void MksBoard::reset_touch(SimTime now) {
+    settings.general.touch = no_calibration;
+    write_block(Block::general, now);
+}
+
+void MksBoard::set_clock(const Moment& moment, SimTime now) {
+    calendar.set(moment, now);
+    if (uses_external_clock()) {
+        external_clock.calendar = calendar;
+    } else if (settings.general.external_clock != 0) {
+        raise(Event::clock_not_set);
+    }
+}
+
+bool MksBoard::board_fan() const {
+    constexpr std::uint8_t with_lamp = 1;
+    constexpr std::uint8_t always = 2;
+    return supplied_ &&
+           (settings.general.fan_mode == always || (settings.general.fan_mode == with_lamp && lamp.fan()));
 }
 
 bool MksBoard::set_language(int language, SimTime now) {
