@@ -143,11 +143,12 @@ void BoardUnit::set_up_memory(machine::Services& services) {
     if (options_.eeprom.empty()) {
         return;
     }
+    const auto trouble = [this](std::string_view text) { say(board::Level::error, text); };
     if (profile_->machine->eeprom_bytes != 0) {
-        services.eeprom_cells = &eeprom_cells_.emplace(options_.eeprom, profile_->machine->eeprom_bytes);
+        services.eeprom_cells =
+            &eeprom_cells_.emplace(options_.eeprom, profile_->machine->eeprom_bytes, trouble);
         return;
     }
-    const auto trouble = [this](std::string_view text) { say(board::Level::error, text); };
     // The place first: it is what tells that another board has both.
     services.job_place = &job_place_.emplace(host::JobPlaceFile::beside(options_.eeprom), trouble);
     services.eeprom = &eeprom_.emplace(options_.eeprom, trouble);
@@ -260,6 +261,20 @@ std::vector<std::string> BoardUnit::network_paths() const {
         paths.push_back(spi_->network_path());
     }
     return paths;
+}
+
+void BoardUnit::warn_of_network(const std::string& web) {
+    std::vector<std::string> paths = network_paths();
+    if (constexpr std::string_view scheme = "http://"; web.starts_with(scheme)) {
+        paths.push_back(web.substr(scheme.size(), web.find('/', scheme.size()) - scheme.size()));
+    }
+    for (const std::string& path : paths) {
+        if (link::reaches_network(path)) {
+            say(board::Level::warning,
+                fmt::format("{} can be reached from other computers; whoever reaches it can drive this board",
+                            path));
+        }
+    }
 }
 
 std::string BoardUnit::where() const {

@@ -73,12 +73,15 @@ class BoardUnit {
     control::Display* display() { return display_.get(); }
     /// Null before open_target().
     host::LiveTarget* target() { return target_ ? &*target_ : nullptr; }
-    /// Of its lines, those that are sockets: where they listen.
-    std::vector<std::string> network_paths() const;
+    /// Who binds beyond this computer may not know that anybody can then drive the board. `web`: the address of
+    /// the page that shows it; empty for none.
+    void warn_of_network(const std::string& web);
     /// " on ..., its USB port on ...", for people.
     std::string where() const;
 
   private:
+    /// Of its lines, those that are sockets: where they listen.
+    std::vector<std::string> network_paths() const;
     void set_up_disks(machine::Services& services);
     void set_up_memory(machine::Services& services);
     void set_up_panel();

@@ -4,10 +4,10 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "emulator/behaviour/wire_text.h"
+#include "emulator/host/text_file.h"
 
 namespace fauxboard::tools {
 namespace {
@@ -61,21 +61,20 @@ bool is_acfg(const std::string& file) {
 }
 
 std::optional<CheckedAcfg> check_acfg(const std::string& file) {
-    std::ifstream in(file, std::ios::binary);
-    if (!in || in.peek() == std::ifstream::traits_type::eof()) {
-        if (!in.is_open() || in.bad()) {
-            return std::nullopt;
-        }
-        in.clear(std::ios::eofbit);
+    const host::FileText found = host::read_text_file(file);
+    if (!found.text) {
+        return std::nullopt;
     }
+    std::string_view rest = *found.text;
     CheckedAcfg checked{file, {}, dlp::default_settings(firmware)};
     checked.report = dlp::read_acfg(
-        [&in](char* out, std::size_t room) {
-            in.read(out, static_cast<std::streamsize>(room));
-            return static_cast<std::size_t>(in.gcount());
+        [&rest](char* out, std::size_t room) {
+            const std::size_t size = rest.copy(out, room);
+            rest.remove_prefix(size);
+            return size;
         },
         checked.live, firmware);
-    return in.bad() ? std::nullopt : std::optional(std::move(checked));
+    return checked;
 }
 
 ordered_json acfg_json(const CheckedAcfg& checked) {

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <charconv>
-#include <fstream>
 #include <memory>
 #include <optional>
 
@@ -12,7 +11,9 @@
 #include "emulator/behaviour/parse_json.h"
 #include "emulator/control/base64.h"
 #include "emulator/host/time_text.h"
+#include "emulator/link/host_error.h"
 #include "emulator/link/link.h"
+#include "emulator/link/output_file.h"
 #include "tools/control_client.h"
 #include "tools/ctl_text.h"
 #include "tools/report.h"
@@ -96,12 +97,12 @@ ExitCode ask(const Ctl& ctl, ControlClient& client, const Json& request, Json& a
 
 ExitCode keep_picture(const Ctl& ctl, const Json& answer) {
     const auto bytes = control::from_base64(answer.value("png", ""));
-    std::ofstream out(ctl.picture, std::ios::binary);
-    out << bytes.value_or("");
-    out.flush();
-    return bytes && out
-               ? ExitCode::ok
-               : complain("ctl", ExitCode::failed, "Cannot write the picture to " + ctl.picture + ".");
+    try {
+        link::write_output(ctl.picture, "The picture " + ctl.picture, bytes.value_or(""));
+    } catch (const link::HostError& error) {
+        return complain("ctl", ExitCode::failed, error.what());
+    }
+    return bytes ? ExitCode::ok : complain("ctl", ExitCode::failed, "The board sent no picture.");
 }
 
 ExitCode one_request(const Ctl& ctl, ControlClient& client) {

@@ -58,7 +58,7 @@ class FleetRun {
           fleet_(std::move(fleet)),
           out_(STDOUT_FILENO),
           err_(STDERR_FILENO),
-          signals_(loop_, {SIGINT, SIGTERM, SIGHUP}, [this](int) { loop_.stop(); }) {}
+          signals_(loop_, link::ending_signals(), [this](int) { loop_.stop(); }) {}
 
     ExitCode operator()() {
         for (FleetBoard& board : fleet_.boards) {
@@ -72,6 +72,9 @@ class FleetRun {
             panel_.emplace(loop_, *arguments_.web, std::move(shown));
         }
         say_ready();
+        for (const auto& member : members_) {  // the page is everybody's: told of once
+            member->unit.warn_of_network(panel_ && member == members_.front() ? panel_->address() : "");
+        }
         std::size_t running = members_.size();
         for (const auto& member : members_) {
             member->unit.start(arguments_.duration, [this, &running] {

@@ -2,12 +2,13 @@
 
 #include <CLI/Validators.hpp>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "emulator/link/host_error.h"
+#include "emulator/link/output_file.h"
 #include "tools/command_tree.h"
 #include "tools/commands.h"
 #include "tools/manual.h"
@@ -16,27 +17,27 @@
 namespace fauxboard::tools {
 namespace {
 
-/// Each page under its name in `folder`. False when one of them cannot be written.
-bool write_pages(const CLI::App& app, const std::filesystem::path& folder) {
+/// Each page under its name in `folder`. Throws HostError.
+void write_pages(const CLI::App& app, const std::filesystem::path& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     std::vector<const CLI::App*> commands = commands_of(app);
     commands.push_back(&app);
     for (const CLI::App* command : commands) {
         const std::string name = command == &app ? "fauxboard" : "fauxboard-" + command->get_name();
-        std::ofstream out(folder / (name + ".1"), std::ios::binary);
-        if (!(out << man_page(app, *command) << std::flush)) {
-            return false;
-        }
+        const std::string file = (folder / (name + ".1")).string();
+        link::write_output(file, file, man_page(app, *command));
     }
-    return true;
 }
 
 ExitCode manual(const CLI::App& app, const std::string& name, const std::string& folder) {
     if (!folder.empty()) {
-        return write_pages(app, folder)
-                   ? ExitCode::ok
-                   : complain("manual", ExitCode::bad_input, folder + ": pages cannot be written there");
+        try {
+            write_pages(app, folder);
+        } catch (const link::HostError& error) {
+            return complain("manual", ExitCode::bad_input, error.what());
+        }
+        return ExitCode::ok;
     }
     print(man_page(app, name.empty() ? app : *find_command(app, name)));
     return ExitCode::ok;
@@ -45,15 +46,14 @@ ExitCode manual(const CLI::App& app, const std::string& name, const std::string&
 }  // namespace
 
 void add_manual(CLI::App& app, ExitCode& exit) {
-    CLI::App* pages =
-        app.add_subcommand("manual", "A manual page in roff: fauxboard manual run | man -l -");
+    CLI::App* pages = app.add_subcommand("manual", "A manual page in roff: fauxboard manual run | man -l -");
     const auto name = std::make_shared<std::string>();
     const auto folder = std::make_shared<std::string>();
     CLI::Option* command =
         pages->add_option("command", *name, "The command; fauxboard itself when none is named")
             ->check([&app](const std::string& text) {
                 return find_command(app, text) != nullptr ? std::string()
-                                                                    : "there is no command '" + text + "'";
+                                                          : "there is no command '" + text + "'";
             });
     pages->add_option("--all", *folder, "Write every page into this folder")
         ->type_name("DIR")

@@ -26,11 +26,8 @@ PanelFolder::PanelFolder(std::string folder, OnTrouble on_trouble)
     : folder_(std::move(folder)), on_trouble_(std::move(on_trouble)) {
     std::error_code error;
     std::filesystem::create_directories(folder_, error);
-    lines_.open(std::filesystem::path(folder_) / "panel.jsonl", std::ios::binary | std::ios::trunc);
-    if (!lines_) {
-        throw link::HostError(fmt::format("The folder {} cannot be written to: {}.", folder_,
-                                          error ? error.message() : "panel.jsonl cannot be made"));
-    }
+    const std::string lines = (std::filesystem::path(folder_) / "panel.jsonl").string();
+    lines_.emplace(lines, lines);
 }
 
 void PanelFolder::write_picture(const std::string& name) const {
@@ -47,7 +44,7 @@ void PanelFolder::write_picture(const std::string& name) const {
 }
 
 void PanelFolder::on_event(machine::SimTime now, machine::EventId event) {
-    if (event != dlp::event("print.displayed") || failed_ || machine_ == nullptr) {
+    if (event != dlp::event("print.displayed") || lines_->over() || machine_ == nullptr) {
         return;
     }
     const dlp::MksBoard& board = machine_->board;
@@ -68,15 +65,12 @@ void PanelFolder::on_event(machine::SimTime now, machine::EventId event) {
     line["file"] = name;
     try {
         write_picture(name);
-        lines_ << line.dump() << std::endl;
-        failed_ = !lines_;
+        if (const std::string why = lines_->append(line.dump() + "\n"); !why.empty()) {
+            on_trouble_(fmt::format("panel.jsonl cannot be written to ({}); no more pictures are.", why));
+        }
     } catch (const link::HostError& error) {
-        failed_ = true;
         on_trouble_(error.what());
-        return;
-    }
-    if (failed_) {
-        on_trouble_("panel.jsonl cannot be written to; no more pictures are.");
+        lines_->finish();
     }
 }
 

@@ -1,12 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <fstream>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "emulator/dlp/printer.h"
 #include "emulator/host/live_observer.h"
+#include "emulator/link/output_file.h"
 
 namespace fauxboard::tools {
 
@@ -33,9 +34,8 @@ class PanelFolder final : public host::LiveObserver {
     std::string folder_;
     OnTrouble on_trouble_;
     const dlp::Printer* machine_ = nullptr;
-    std::ofstream lines_;
+    std::optional<link::OutputFile> lines_;
     std::uint64_t count_ = 0;
-    bool failed_ = false;
 };
 
 }  // namespace fauxboard::tools

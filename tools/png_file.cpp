@@ -1,23 +1,15 @@
 #include "tools/png_file.h"
 
-#include <fmt/format.h>
 #include <png.h>
 
-#include <cerrno>
 #include <csetjmp>
-#include <cstdio>
-#include <memory>
-#include <system_error>
+#include <new>
 #include <vector>
 
-#include "emulator/link/host_error.h"
+#include "emulator/link/output_file.h"
 
 namespace fauxboard::tools {
 namespace {
-
-struct CloseFile {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-};
 
 /// libpng's two structures, freed together.
 struct Png {
@@ -36,11 +28,16 @@ void quiet_warning(png_structp, png_const_charp) {}
 
 // libpng reports errors by longjmp(): the three steps below hold nothing that would need destroying.
 
-bool begin(const Png& png, std::FILE* file, const PngPicture& picture) {
+void add_bytes(png_structp png, png_bytep bytes, std::size_t size) {
+    static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(bytes), size);
+}
+void flush_nothing(png_structp) {}
+
+bool begin(const Png& png, std::string& out, const PngPicture& picture) {
     if (setjmp(png_jmpbuf(png.out)) != 0) {
         return false;
     }
-    png_init_io(png.out, file);
+    png_set_write_fn(png.out, &out, add_bytes, flush_nothing);
     if (picture.bits) {  // many of them are written while a print waits
         png_set_compression_level(png.out, 1);
         png_set_filter(png.out, 0, PNG_FILTER_NONE);
@@ -68,21 +65,10 @@ bool end(const Png& png) {
     return true;
 }
 
-[[noreturn]] void cannot_write(const std::string& path) {
-    const int error = errno;
-    std::remove(path.c_str());
-    throw link::HostError(
-        fmt::format("{} cannot be written: {}.", path, std::system_category().message(error)));
-}
-
 }  // namespace
 
 bool write_png(const std::string& path, const PngPicture& picture) {
-    std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "wbe"));
-    if (!file) {
-        throw link::HostError(
-            fmt::format("{} cannot be written: {}.", path, std::system_category().message(errno)));
-    }
+    std::string bytes;
     Png png;
     png.out = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, quiet_error, quiet_warning);
     png.info = png.out != nullptr ? png_create_info_struct(png.out) : nullptr;
@@ -91,21 +77,17 @@ bool write_png(const std::string& path, const PngPicture& picture) {
     }
     const std::size_t width = picture.width;
     std::vector<unsigned char> row(picture.bits ? (width + 7) / 8 : width * (picture.colour ? 3 : 1));
-    if (!begin(png, file.get(), picture)) {
-        cannot_write(path);
-    }
-    for (std::uint32_t y = 0; y < picture.height; ++y) {
+    bool good = begin(png, bytes, picture);
+    for (std::uint32_t y = 0; good && y < picture.height; ++y) {
         if (!picture.next_row(row)) {
-            std::remove(path.c_str());
             return false;
         }
-        if (!put_row(png, row.data())) {
-            cannot_write(path);
-        }
+        good = put_row(png, row.data());
     }
-    if (!end(png) || std::fclose(file.release()) != 0) {
-        cannot_write(path);
+    if (!good || !end(png)) {
+        throw std::bad_alloc();  // nothing else can be in the way of bytes in memory
     }
+    link::write_output(path, path, bytes);
     return true;
 }
 

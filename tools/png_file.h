@@ -17,7 +17,7 @@ struct PngPicture {
     std::function<bool(std::span<unsigned char> row)> next_row;
 };
 
-/// Writes the picture; true when it is whole. False when next_row() gave up: the file is then gone again.
+/// Writes the picture; true when it is whole. False when next_row() gave up: then there is no file.
 /// Throws link::HostError when the file cannot be written.
 bool write_png(const std::string& path, const PngPicture& picture);
 

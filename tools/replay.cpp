@@ -12,6 +12,7 @@
 #include "emulator/host/folder_card.h"
 #include "emulator/host/profile_files.h"
 #include "emulator/link/host_error.h"
+#include "emulator/link/output_file.h"
 #include "emulator/record/compare.h"
 #include "emulator/record/plot.h"
 #include "tools/batch.h"
@@ -62,15 +63,6 @@ void print_notice(const record::ReplayNotice& notice) {
     }
 }
 
-void write_plot(const std::string& file, const std::string& svg) {
-    std::ofstream out(file, std::ios::binary | std::ios::trunc);
-    out << svg;
-    out.close();
-    if (!out) {
-        throw link::HostError(fmt::format("{} cannot be written. Name a file in a folder of yours.", file));
-    }
-}
-
 /// Line by line, however long the recording is.
 ExitCode play(const ReplayArguments& arguments, const std::shared_ptr<const behaviour::Profile>& profile,
               const record::ReplayOptions& options) {
@@ -98,8 +90,9 @@ ExitCode compare(const ReplayArguments& arguments, const std::shared_ptr<const b
         print_notice(notice);
     }
     if (!arguments.plot.empty()) {
-        write_plot(arguments.plot, record::plot_svg({{"recorded", recording}, {"replayed", result.lines}},
-                                                    record::prints_folded(*profile)));
+        link::write_output(arguments.plot, arguments.plot,
+                           record::plot_svg({{"recorded", recording}, {"replayed", result.lines}},
+                                            record::prints_folded(*profile)));
         if (!arguments.compare) {
             return ExitCode::ok;
         }

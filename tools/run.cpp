@@ -51,7 +51,7 @@ class Run {
           unit_(loop_, options,
                 scenario_ ? scenario_->cast.profile : host::load_profile_by_name(options.profile),
                 scenario_.get(), observers_),
-          signals_(loop_, link::ending_signals, [this](int number) { on_signal(number); }),
+          signals_(loop_, link::ending_signals(), [this](int number) { on_signal(number); }),
           watch_(loop_, [this] { reload(); }) {}
 
     ExitCode operator()();
@@ -65,7 +65,6 @@ class Run {
     ExitCode outcome();
     void say_ready();
     void watch_profile();
-    void warn_of_network();
     void reload();
     void on_signal(int number);
 
@@ -164,18 +163,6 @@ void Run::watch_profile() {
     }
 }
 
-/// Who binds beyond this computer may not know that anybody can then drive the board.
-void Run::warn_of_network() {
-    for (const std::string& path : unit_.network_paths()) {
-        if (link::reaches_network(path)) {
-            unit_.say(
-                board::Level::warning,
-                fmt::format("{} can be reached from other computers; whoever reaches it can drive this board",
-                            path));
-        }
-    }
-}
-
 void Run::reload() {
     try {
         auto profile = host::load_profile_by_name(options_.profile);
@@ -210,7 +197,7 @@ ExitCode Run::operator()() {
                        std::vector{panel::Panel::Shown{unit_.profile()->name, *unit_.target()}});
     }
     say_ready();
-    warn_of_network();
+    unit_.warn_of_network(panel_ ? panel_->address() : std::string());
     if (options_.reload && !scenario_) {  // which was checked against this one
         watch_profile();
     }

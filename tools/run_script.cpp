@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <iterator>
 
 #include "emulator/behaviour/document.h"
@@ -14,6 +13,8 @@
 #include "emulator/host/screen_files.h"
 #include "emulator/host/script_files.h"
 #include "emulator/host/text_output.h"
+#include "emulator/link/host_error.h"
+#include "emulator/link/output_file.h"
 #include "emulator/script/loader.h"
 #include "tools/report.h"
 
@@ -65,13 +66,6 @@ void mask(Json& state) {
     }
 }
 
-bool write_file(const std::string& file, const std::string& text) {
-    std::ofstream out(file, std::ios::binary | std::ios::trunc);
-    out << text;
-    out.close();
-    return out.good();
-}
-
 }  // namespace
 
 std::shared_ptr<const script::Scenario> plan_script(RunOptions& options) {
@@ -113,9 +107,10 @@ ExitCode tell_outcome(const RunOptions& options, const script::Player& player, c
         out.write(report.dump(-1, ' ', true, Json::error_handler_t::replace) + "\n");
     }
     const auto keep = [&](const std::string& file, const std::string& text) {
-        if (!file.empty() && !write_file(file, text)) {
-            complain("run", ExitCode::bad_input,
-                     fmt::format("{} cannot be written. Name a file in a folder of yours.", file));
+        try {
+            if (!file.empty()) link::write_output(file, file, text);
+        } catch (const link::HostError& error) {
+            complain("run", ExitCode::bad_input, error.what());
             exit = exit == ExitCode::ok ? ExitCode::bad_input : exit;
         }
     };

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <functional>
 #include <map>
 #include <set>
 
 #include "emulator/link/event_loop.h"
 #include "emulator/link/host_error.h"
+#include "emulator/link/output_file.h"
 #include "emulator/screen/page_view.h"
 #include "emulator/screen/tour_report.h"
 #include "tools/control_screen.h"
@@ -372,12 +372,12 @@ class OwnInteractive {
 }  // namespace
 
 ExitCode keep_picture(const std::string& file, const std::string& png, ExitCode code) {
-    std::ofstream out(file, std::ios::binary | std::ios::trunc);
-    out << png;
-    out.close();
-    return out ? code
-               : complain("screen", ExitCode::bad_input,
-                          file + " cannot be written. Name a file in a folder of yours.");
+    try {
+        link::write_output(file, file, png);
+    } catch (const link::HostError& error) {
+        return complain("screen", ExitCode::bad_input, error.what());
+    }
+    return code;
 }
 
 ExitCode show_own(const ScreenOptions& options) {
@@ -414,15 +414,10 @@ ExitCode tour_own(const ScreenOptions& options) {
     tour.run();
     const auto results = tour.results();
     print(options.json ? screen::tour_json(tour.name(), results) : screen::tour_table(results));
-    if (!options.junit.empty()) {
-        std::ofstream out(options.junit, std::ios::binary);
-        out << screen::tour_junit(tour.name(), results);
-        out.flush();
-        if (!out) {
-            return complain("screen", ExitCode::bad_input, options.junit + " cannot be written");
-        }
-    }
-    return tour.complete() ? ExitCode::ok : ExitCode::failed;
+    const ExitCode code = tour.complete() ? ExitCode::ok : ExitCode::failed;
+    return options.junit.empty()
+               ? code
+               : keep_picture(options.junit, screen::tour_junit(tour.name(), results), code);
 }
 
 ExitCode interactive_own(const ScreenOptions& options) {

@@ -22,7 +22,7 @@ ScreenSession::ScreenSession(const ScreenOptions& options)
     : options_(options),
       screen_(host::load_screen_by_name(options.screen)),
       clock_(host::make_clock(loop_, options.speed)),
-      signals_(loop_, link::ending_signals, [this](int) {
+      signals_(loop_, link::ending_signals(), [this](int) {
           interrupted_ = true;
           finish(ExitCode::failed);
       }) {

@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <fstream>
-#include <system_error>
+#include <chrono>
+#include <optional>
 
 #include "emulator/host/text_output.h"
-#include "emulator/link/host_error.h"
+#include "emulator/link/output_file.h"
 #include "emulator/screen/tour_report.h"
 #include "tools/progress.h"
 #include "tools/report.h"
@@ -18,6 +17,9 @@ namespace fauxboard::tools {
 namespace {
 
 using host::SimTime;
+
+/// That the reader of a pipe has to take the report.
+constexpr std::chrono::seconds junit_patience{5};
 
 class WholeTour final : public ScreenWalk {
   public:
@@ -42,25 +44,14 @@ class WholeTour final : public ScreenWalk {
     Progress progress_;
 };
 
-/// Opened before the tour, so that a wrong name is told before and not after it.
-std::ofstream open_junit(const std::string& file) {
-    std::ofstream out;
-    if (!file.empty()) {
-        errno = 0;
-        out.open(file, std::ios::binary | std::ios::trunc);
-        if (!out) {
-            throw link::HostError(
-                fmt::format("The JUnit report {} cannot be written ({}). Name a file in a folder of yours.",
-                            file, std::system_category().message(errno)));
-        }
-    }
-    return out;
-}
-
 }  // namespace
 
 ExitCode tour(const ScreenOptions& options) {
-    std::ofstream junit = open_junit(options.junit);
+    // Opened before the tour, so that a wrong name is told before and not after it.
+    std::optional<link::OutputFile> junit;
+    if (!options.junit.empty()) {
+        junit.emplace(options.junit, fmt::format("The JUnit report {}", options.junit), junit_patience);
+    }
     ScreenSession session(options);
     WholeTour user(session);
     ExitCode code = session.run(user);
@@ -85,11 +76,12 @@ ExitCode tour(const ScreenOptions& options) {
             print("\nWhat this screen did not take as it was meant:\n" + screen::findings_text(findings));
         }
     }
-    if (!options.junit.empty()) {
-        junit << screen::tour_junit(name, user.results());
-        if (!junit.flush()) {
+    if (junit) {
+        std::string why = junit->append(screen::tour_junit(name, user.results()));
+        why = why.empty() ? junit->finish() : why;
+        if (!why.empty()) {
             code = complain("screen", ExitCode::bad_input,
-                            fmt::format("the JUnit report {} could not be written", options.junit));
+                            fmt::format("the JUnit report {} could not be written ({})", options.junit, why));
         }
     }
     return code;

@@ -6,8 +6,6 @@
 #include <chrono>
 #include <regex>
 
-#include "emulator/link/host_error.h"
-
 namespace fauxboard::tools {
 namespace {
 
@@ -40,10 +38,9 @@ SpiPort::SpiPort(const std::string& where, SimTime start, OnTrouble on_trouble)
         stream_ = link::make_direct_tcp(where);
     } else if (where.ends_with(".pcapng")) {
         capture_.emplace(where, start, on_trouble_,
-                         record::pcapng_user_head("spi", "the wires to the UV panel"));
-    } else if (!file_.emplace(where, std::ios::binary | std::ios::trunc)) {
-        throw link::HostError(fmt::format(
-            "{} cannot be written to. Name a file in a folder of yours, pty, or HOST:PORT.", where));
+                         record::pcapng_user_head("spi", "the wires to the UV panel"), write_limit);
+    } else {
+        file_.emplace(where, fmt::format("The file {} of the panel's wires", where), write_limit);
     }
     if (stream_) {
         path_ = stream_->path();
@@ -75,10 +72,10 @@ void SpiPort::tell(SpiRecord record) {
 }
 
 void SpiPort::flush() {
-    if (file_ && !waiting_.empty() &&
-        !file_->write(waiting_.data(), static_cast<std::streamsize>(waiting_.size())).flush()) {
-        on_trouble_(fmt::format("{} cannot be written to; the records end here.", path_));
-        file_.reset();
+    if (file_) {
+        if (const std::string why = file_->append(waiting_); !why.empty()) {
+            on_trouble_(fmt::format("{} cannot be written to ({}); the records end here.", path_, why));
+        }
     } else if (stream_) {
         const bool up = stream_->up();
         if (up && !stream_->write(waiting_, write_limit) && was_up_) {

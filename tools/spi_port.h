@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <fstream>
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -10,6 +9,7 @@
 
 #include "emulator/dlp/spi_frames.h"
 #include "emulator/link/direct_stream.h"
+#include "emulator/link/output_file.h"
 #include "emulator/record/pcapng.h"
 
 namespace fauxboard::tools {
@@ -64,7 +64,7 @@ class SpiPort final : public dlp::SpiTap {
 
     std::string path_;
     OnTrouble on_trouble_;
-    std::optional<std::ofstream> file_;
+    std::optional<link::OutputFile> file_;
     std::optional<record::PcapngWriter> capture_;
     std::unique_ptr<link::DirectStream> stream_;
     std::string waiting_;  ///< records not handed on yet

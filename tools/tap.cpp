@@ -58,7 +58,7 @@ class TapRun final : public host::TapObserver {
           log_(err_, options.log),
           clock_(host::make_clock(loop_, {})),
           alarm_(clock_->make_alarm([this] { wake(); })),
-          signals_(loop_, link::ending_signals, [this](int) { loop_.stop(); }) {}
+          signals_(loop_, link::ending_signals(), [this](int) { loop_.stop(); }) {}
 
     void operator()();
 

@@ -34,6 +34,11 @@ std::string_view nearest(std::string_view word, std::span<const std::string_view
     std::string_view best;
     std::size_t best_distance = std::max<std::size_t>(2, word.size() / 2) + 1;
     for (const std::string_view name : names) {
+        // So far apart in length alone: there may be very many wrong words to be compared with all names.
+        const std::size_t apart = std::max(word.size(), name.size()) - std::min(word.size(), name.size());
+        if (apart >= best_distance && std::max(word.size(), name.size()) <= longest) {
+            continue;
+        }
         const std::size_t distance = edit_distance(word, name);
         if (distance < best_distance) {
             best_distance = distance;

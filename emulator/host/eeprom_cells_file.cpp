@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -44,7 +45,7 @@ void EepromCellsFile::make() const {
     std::string name = file_ + ".XXXXXX";
     const link::UniqueFd fd(::mkostemp(name.data(), O_CLOEXEC));
     const std::string fresh(bytes_, '\xFF');
-    if (!fd || ::fchmod(fd.get(), 0644) != 0 || !write_all(fd.get(), fresh, 0) ||
+    if (!fd || ::fchmod(fd.get(), 0644) != 0 || !write_all(fd.get(), fresh, 0) || ::fsync(fd.get()) != 0 ||
         ::rename(name.c_str(), file_.c_str()) != 0) {
         const std::string why = last_error();
         ::unlink(name.c_str());
@@ -52,8 +53,8 @@ void EepromCellsFile::make() const {
     }
 }
 
-EepromCellsFile::EepromCellsFile(std::string file, std::size_t bytes)
-    : file_(std::move(file)), bytes_(bytes) {
+EepromCellsFile::EepromCellsFile(std::string file, std::size_t bytes, OnTrouble on_trouble)
+    : file_(std::move(file)), bytes_(bytes), on_trouble_(std::move(on_trouble)) {
     struct stat info {};
     if (::stat(file_.c_str(), &info) != 0 && errno == ENOENT) {
         make();
@@ -67,16 +68,32 @@ EepromCellsFile::EepromCellsFile(std::string file, std::size_t bytes)
                fmt::format("the chip has {} bytes, and this {}", bytes_,
                            S_ISREG(info.st_mode) ? fmt::format("file {}", info.st_size) : "is no file"));
     }
+    if (::flock(fd_.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+        refuse(file_, "it is in use by a board that runs, and each board needs an EEPROM of its own");
+    }
+    // The board would write its defaults over a chip that it cannot read.
+    if (std::string probe(bytes_, '\0'); ::pread(fd_.get(), probe.data(), bytes_, 0) < 0) {
+        refuse(file_, last_error());
+    }
 }
 
 std::optional<std::string> EepromCellsFile::load() {
     std::string bytes(bytes_, '\0');
     const ssize_t got = ::pread(fd_.get(), bytes.data(), bytes.size(), 0);
-    return got == static_cast<ssize_t>(bytes.size()) ? std::optional(std::move(bytes)) : std::nullopt;
+    if (got == static_cast<ssize_t>(bytes.size())) {
+        return bytes;
+    }
+    on_trouble_(
+        fmt::format("the EEPROM {} cannot be read ({}); it counts as a fresh chip", file_, last_error()));
+    return std::nullopt;
 }
 
 void EepromCellsFile::store(std::size_t address, std::string_view bytes) {
-    write_all(fd_.get(), bytes, static_cast<off_t>(address));
+    if (write_all(fd_.get(), bytes, static_cast<off_t>(address))) {
+        complained_ = false;
+    } else if (!std::exchange(complained_, true)) {
+        on_trouble_(fmt::format("the EEPROM {} could not be saved ({})", file_, last_error()));
+    }
 }
 
 }  // namespace fauxboard::host

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "emulator/link/unique_fd.h"
@@ -11,9 +12,12 @@ namespace fauxboard::host {
 /// that the board writes it: a kill at any moment leaves what the chip would hold.
 class EepromCellsFile final : public machine::EepromCells {
   public:
-    /// `file` need not exist: a fresh chip, all 0xFF. Throws link::HostError when it is no such file, or
-    /// cannot be written.
-    EepromCellsFile(std::string file, std::size_t bytes);
+    /// Told when a cell could not be written, once until one could again.
+    using OnTrouble = std::function<void(std::string_view sentence)>;
+
+    /// `file` need not exist: a fresh chip, all 0xFF. Throws link::HostError when it is no such file, cannot
+    /// be written, or is the chip of another board that runs.
+    EepromCellsFile(std::string file, std::size_t bytes, OnTrouble on_trouble);
 
     std::optional<std::string> load() override;
     void store(std::size_t address, std::string_view bytes) override;
@@ -23,6 +27,8 @@ class EepromCellsFile final : public machine::EepromCells {
 
     std::string file_;
     std::size_t bytes_;
+    OnTrouble on_trouble_;
+    bool complained_ = false;
     link::UniqueFd fd_;
 };
 

@@ -1,9 +1,9 @@
 #include "emulator/host/script_host.h"
 
-#include <fmt/format.h>
-
-#include <fstream>
 #include <utility>
+
+#include "emulator/link/host_error.h"
+#include "emulator/link/output_file.h"
 
 namespace fauxboard::host {
 
@@ -13,10 +13,12 @@ ScriptHost::ScriptHost(Parts parts, std::shared_ptr<const script::Scenario> scen
       alarm_(parts_.clock.make_alarm([this] { turn(); })) {}
 
 std::string ScriptHost::keep_picture(const std::string& file, std::string_view png) {
-    std::ofstream out(file, std::ios::binary);
-    out << png;
-    out.flush();
-    return out ? std::string{} : fmt::format("{} cannot be written", file);
+    try {
+        link::write_output(file, file, png);
+    } catch (const link::HostError& error) {
+        return error.what();
+    }
+    return {};
 }
 
 void ScriptHost::start() {

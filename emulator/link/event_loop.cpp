@@ -265,12 +265,21 @@ extern "C" void tell_signal(int number) {
 
 }  // namespace
 
+std::vector<int> ending_signals() {
+    std::vector<int> numbers{SIGINT,    SIGTERM, SIGHUP,    SIGQUIT, SIGUSR1, SIGUSR2, SIGALRM,
+                             SIGSTKFLT, SIGXCPU, SIGVTALRM, SIGPROF, SIGIO,   SIGPWR};
+    // These do the same by default; a container's init is ended by one of them.
+    for (int number = SIGRTMIN; number <= SIGRTMAX; ++number)
+        numbers.push_back(number);
+    return numbers;
+}
+
 std::string signal_name(int number) {
     const char* const name = ::sigabbrev_np(number);
     return name == nullptr ? fmt::format("signal {}", number) : fmt::format("SIG{}", name);
 }
 
-Signals::Signals(EventLoop& loop, std::initializer_list<int> numbers, std::function<void(int)> on_signal)
+Signals::Signals(EventLoop& loop, const std::vector<int>& numbers, std::function<void(int)> on_signal)
     : on_signal_(std::move(on_signal)), watch_(loop, [this] { take(); }) {
     std::array<int, 2> ends{};
     if (::pipe2(ends.data(), O_NONBLOCK | O_CLOEXEC) != 0) fail("pipe for signals");

@@ -161,9 +161,10 @@ class Timer {
 };
 
 /// All that asks a program to end and lets it: what it has made (a name in the file system) must go with it.
-inline constexpr std::initializer_list<int> ending_signals{SIGINT,  SIGTERM, SIGHUP,
-                                                           SIGQUIT, SIGUSR1, SIGUSR2};
-/// "SIGTERM"; "signal N" for one that is none of ending_signals.
+/// Left out are those by which the system says that the program itself is wrong, and those that cannot be
+/// caught.
+std::vector<int> ending_signals();
+/// "SIGTERM"; "signal N" for one that has no name.
 std::string signal_name(int number);
 
 /// Signals as events of the loop. While this lives they do nothing else to the process but interrupt calls
@@ -171,7 +172,7 @@ std::string signal_name(int number);
 class Signals {
   public:
     /// `on_signal` gets the number. Throws LinkError when the system refuses.
-    Signals(EventLoop& loop, std::initializer_list<int> numbers, std::function<void(int)> on_signal);
+    Signals(EventLoop& loop, const std::vector<int>& numbers, std::function<void(int)> on_signal);
     ~Signals();
     Signals(const Signals&) = delete;
     Signals& operator=(const Signals&) = delete;

@@ -1,14 +1,8 @@
 #include "emulator/record/pcapng.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <system_error>
 #include <utility>
-
-#include "emulator/link/host_error.h"
 
 namespace fauxboard::record {
 namespace {
@@ -140,16 +134,12 @@ std::string pcapng_user_packet(SimTime since_epoch, bool out, std::string_view b
     return packet_of(since_epoch, 0, out, bytes);
 }
 
-PcapngWriter::PcapngWriter(std::string file, SimTime start, OnTrouble on_trouble, std::string_view head)
+PcapngWriter::PcapngWriter(std::string file, SimTime start, OnTrouble on_trouble, std::string_view head,
+                           std::chrono::milliseconds patience)
     : file_(std::move(file)),
       start_(start),
       on_trouble_(std::move(on_trouble)),
-      fd_(::open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOCTTY, 0666)) {
-    if (!fd_) {
-        throw link::HostError(
-            fmt::format("The capture {} cannot be written ({}). Name a file in a folder of yours.", file_,
-                        std::system_category().message(errno)));
-    }
+      out_(file_, fmt::format("The capture {}", file_), patience) {
     write(head);
 }
 
@@ -158,36 +148,17 @@ void PcapngWriter::packet(SimTime now, Direction direction, std::string_view byt
 }
 
 void PcapngWriter::block(std::string_view packet) {
-    if (fd_ && write(packet)) {
+    if (!out_.over() && write(packet)) {
         ++packets_;
     }
 }
 
 bool PcapngWriter::write(std::string_view block) {
-    std::size_t done = 0;
-    while (done < block.size()) {
-        const ssize_t count = ::write(fd_.get(), block.data() + done, block.size() - done);
-        if (count < 0 && errno == EINTR) {
-            continue;
-        }
-        if (count > 0) {
-            done += static_cast<std::size_t>(count);
-            continue;
-        }
-        const int error = count < 0 ? errno : EIO;
-        // Half a block would make the capture unreadable. On a pipe this fails and does no harm.
-        const off_t end = ::lseek(fd_.get(), 0, SEEK_CUR);
-        if (done != 0 && end >= 0) {
-            [[maybe_unused]] const int cut = ::ftruncate(fd_.get(), end - static_cast<off_t>(done));
-        }
-        fd_.reset();
-        if (on_trouble_) {
-            on_trouble_(fmt::format("the capture {} ends here, after {} packets: {}", file_, packets_,
-                                    std::system_category().message(error)));
-        }
-        return false;
+    const std::string why = out_.append(block);
+    if (!why.empty() && on_trouble_) {
+        on_trouble_(fmt::format("the capture {} ends here, after {} packets: {}", file_, packets_, why));
     }
-    return true;
+    return why.empty();
 }
 
 }  // namespace fauxboard::record

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "emulator/link/unique_fd.h"
+#include "emulator/link/output_file.h"
 #include "emulator/machine/sim_time.h"
 #include "protocol/catalogue.h"
 
@@ -47,9 +47,9 @@ class PcapngWriter {
     using OnTrouble = std::function<void(std::string_view sentence)>;
 
     /// Creates or empties `file`. `start`: real time, since 1970, at which the tap's time was 0. Throws
-    /// link::HostError.
+    /// link::HostError: see link::OutputFile.
     PcapngWriter(std::string file, machine::SimTime start, OnTrouble on_trouble,
-                 std::string_view head = pcapng_head());
+                 std::string_view head = pcapng_head(), std::chrono::milliseconds patience = {});
 
     void packet(machine::SimTime now, protocol::Direction direction, std::string_view bytes);
     /// A packet that was made already.
@@ -63,7 +63,7 @@ class PcapngWriter {
     std::string file_;
     machine::SimTime start_;
     OnTrouble on_trouble_;
-    link::UniqueFd fd_;
+    link::OutputFile out_;
     std::uint64_t packets_ = 0;
 };
 

@@ -38,13 +38,21 @@ void RecordingReader::fail(std::string_view message) const {
     throw RecordingError(name_, line_, message);
 }
 
+/// A disk that fails in the middle throws out of the stream's buffer, whatever the stream is told.
+int RecordingReader::next_byte() {
+    try {
+        return in_.rdbuf()->sbumpc();
+    } catch (const std::ios_base::failure& error) {
+        fail(fmt::format("it cannot be read ({})", error.code().message()));
+    }
+}
+
 /// The next line of the file into text_. False at the end.
 bool RecordingReader::read_text() {
     text_.clear();
     ++line_;
-    std::streambuf& buffer = *in_.rdbuf();
     for (;;) {
-        const int c = buffer.sbumpc();
+        const int c = next_byte();
         if (c == std::char_traits<char>::eof()) {
             return !text_.empty();
         }

@@ -66,6 +66,7 @@ class RecordingReader {
     const std::string& name() const { return name_; }
 
   private:
+    int next_byte();
     bool read_text();
     std::optional<RecordedLine> parse();
     [[noreturn]] void fail(std::string_view message) const;

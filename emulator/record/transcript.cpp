@@ -114,14 +114,23 @@ Direction likely_direction(std::string_view bytes, std::optional<Direction> if_o
 
 // ---- one file ----
 
+/// A disk that fails in the middle throws out of the stream's buffer: the end, and the stream is bad.
+int TranscriptReader::next_byte() {
+    try {
+        return in_->rdbuf()->sbumpc();
+    } catch (const std::ios_base::failure&) {
+        in_->setstate(std::ios::badbit);
+        return std::char_traits<char>::eof();
+    }
+}
+
 /// The next line into text_, its end left off. A line ends with LF, CR or CR LF. False at the end.
 bool TranscriptReader::read_text() {
     text_.clear();
     cut_ = false;
     number_ = lines_ + 1;
-    std::streambuf& buffer = *in_->rdbuf();
     for (;;) {
-        const int c = buffer.sbumpc();
+        const int c = next_byte();
         if (c == std::char_traits<char>::eof()) {
             return !text_.empty();
         }

@@ -69,6 +69,7 @@ class TranscriptReader {
     std::optional<TranscriptEntry> next();
 
   private:
+    int next_byte();
     bool read_text();
     TranscriptEntry parse();
     TranscriptEntry parse_json();

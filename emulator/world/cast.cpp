@@ -32,7 +32,7 @@ constexpr std::array<Harmless, 14> harmless{
      {"M4002"},
      {"M115"},
      {"M4000"},
-     {"M27", {"SD printing byte ", "Not SD printing"}},
+     {"M27", {"SD printing byte ", "SD N:", "Not SD printing"}},
      {"M114"},
      {"M2133"},
      {"M119"},

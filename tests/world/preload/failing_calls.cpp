@@ -13,6 +13,7 @@
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/timerfd.h>
+#include <sys/uio.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -97,6 +98,9 @@ FAUXBOARD_FAILING(ssize_t, pread64, (int fd, void* data, size_t size, off64_t at
 FAUXBOARD_FAILING(ssize_t, pread, (int fd, void* data, size_t size, off_t at), (fd, data, size, at), -1)
 FAUXBOARD_FAILING(ssize_t, pwrite, (int fd, const void* data, size_t size, off_t at), (fd, data, size, at),
                   -1)
+FAUXBOARD_FAILING(ssize_t, pwrite64, (int fd, const void* data, size_t size, off64_t at),
+                  (fd, data, size, at), -1)
+FAUXBOARD_FAILING(ssize_t, writev, (int fd, const iovec* pieces, int count), (fd, pieces, count), -1)
 FAUXBOARD_FAILING(int, fsync, (int fd), (fd), -1)
 FAUXBOARD_FAILING(int, ftruncate, (int fd, off_t size), (fd, size), -1)
 FAUXBOARD_FAILING(int, rename, (const char* from, const char* to), (from, to), -1)
