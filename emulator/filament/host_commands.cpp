@@ -19,9 +19,9 @@ void HostCommands::power_on() {
     source_.arc.clear();
     source_.wake = SimTime{0};
     source_.moves = 0;
-    waits_ = yields_ = writing_ = false;
+    waits_ = yields_ = false;
     wait_busy_ = never;
-    unwritten_.clear();
+    files_ = {};
     busy_s_ = config_.busy_s;
     busy_ = never;
     parsed_.clear();
@@ -110,12 +110,7 @@ void HostCommands::over() {
 }
 
 void HostCommands::follow_transfer() {
-    const bool open = transfer_.takes_from(Transfer::usb_side);
-    if (open != writing_) {
-        writing_ = open;
-        writer_ = speaker;
-        unwritten_.clear();
-    }
+    files_[speaker] = {transfer_.takes_from(Transfer::host_line(speaker)), {}};
 }
 
 bool HostCommands::write(std::string_view command, SimTime now) {
@@ -126,9 +121,10 @@ bool HostCommands::write(std::string_view command, SimTime now) {
         flush(now);
         return false;
     }
-    code_ = nullptr;                            // it is a text now, and over at once
-    unwritten_.append(command).append("\r\n");  // as Marlin ends them
-    if (unwritten_.size() >= block_bytes) {
+    code_ = nullptr;  // it is a text now, and over at once
+    std::string& unwritten = files_[speaker].unwritten;
+    unwritten.append(command).append("\r\n");  // as Marlin ends them
+    if (unwritten.size() >= block_bytes) {
         flush(now);
     }
     return true;
@@ -136,12 +132,13 @@ bool HostCommands::write(std::string_view command, SimTime now) {
 
 /// What is not on the disk yet goes there.
 void HostCommands::flush(SimTime now) {
-    if (transfer_.takes_from(Transfer::usb_side) &&
-        !transfer_.piece(now, Transfer::usb_side, true, transfer_.position(), unwritten_)) {
-        transfer_.close(now, Transfer::usb_side);
+    std::string& unwritten = files_[speaker].unwritten;
+    const Transfer::Peer peer = Transfer::host_line(speaker);
+    if (transfer_.takes_from(peer) && !transfer_.piece(now, peer, true, transfer_.position(), unwritten)) {
+        transfer_.close(now, peer);
         source_.on.events.raise(event("host.write_failed"));
     }
-    unwritten_.clear();
+    unwritten.clear();
 }
 
 void HostCommands::stream() {
