@@ -88,6 +88,7 @@ std::string json_of(const world::Soaked& soaked) {
         {"years", years(soaked.time)},
         {"requests", soaked.requests},
         {"promises", world::invariants().size()},
+        {"digest", fmt::format("{:016x}", soaked.digest)},
         {"broken", soaked.broken.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(soaked.broken)}};
     return out.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) + "\n";
 }

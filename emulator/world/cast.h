@@ -9,6 +9,7 @@
 
 #include "emulator/behaviour/profile.h"
 #include "emulator/screen/screen_profile.h"
+#include "emulator/world/print_watch.h"
 
 namespace fauxboard::world {
 
@@ -28,6 +29,14 @@ struct Cast {
     std::vector<std::string> requests;                    ///< codes that the main line knows
     std::vector<std::string> commands;                    ///< codes that the USB side knows
     std::array<std::optional<Probe>, behaviour::channel_count> probes;
+    std::vector<std::string> prints;  ///< of the files, those that such a board begins to print
+    /// One of them that it prints to its end without any heat, and what that comes to; no name: there is
+    /// none.
+    struct Proof {
+        std::string file;
+        Tally tally{};
+    };
+    Proof proof;
 };
 
 /// Finds out by trying what each line of a board of this profile knows and answers. A line that answers
@@ -41,5 +50,7 @@ std::vector<Probe> probes_of(const std::shared_ptr<const behaviour::Profile>& pr
 
 /// A file of a slicer that every board prints: heats, homes, some layers of short moves.
 std::string small_print(unsigned layers);
+/// One that needs no heat.
+std::string cold_print();
 
 }  // namespace fauxboard::world
