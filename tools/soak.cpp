@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -25,6 +26,7 @@ struct SoakOptions {
     std::string profile;
     std::string screen;
     double years = 1;
+    double seconds = 0;  ///< by the clock on the wall; 0: as long as it takes
     std::uint64_t seed = 1;
     std::uint64_t steps = 60;
     std::vector<std::uint64_t> only;
@@ -105,11 +107,15 @@ ExitCode soak(const SoakOptions& options) {
             return replay_one(cast, options);
         }
         Progress progress;
+        const auto over = [&options, begin = std::chrono::steady_clock::now()] {
+            const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
+            return options.seconds > 0 && passed.count() >= options.seconds;
+        };
         const world::Soaked soaked =
             world::soak(cast, options.seed, options.steps, [&](const world::Soaked& so_far) {
                 progress.say(fmt::format("{} worlds, {:.2f} of {} years, {} requests", so_far.seeds,
                                          years(so_far.time), options.years, so_far.requests));
-                return years(so_far.time) >= options.years;
+                return years(so_far.time) >= options.years || over();
             });
         progress.clear();
         print(options.json ? json_of(soaked) : text_of(soaked));
@@ -136,6 +142,10 @@ void add_soak(CLI::App& app, ExitCode& exit) {
     command->add_option("--years", options->years, "Of virtual time, at least")
         ->check(CLI::Range(0.0, 1e6))
         ->capture_default_str();
+    command
+        ->add_option("--seconds", options->seconds,
+                     "Of real time, at most; the last world is played to its end")
+        ->check(CLI::Range(0.0, 1e6));
     add_seed(*command, options->seed, "Of the first world; the next has the next");
     command->add_option("--steps", options->steps, "Things that happen in one world")
         ->check(CLI::Range(1, 1'000'000))

@@ -31,15 +31,14 @@ class Eeprom final : public machine::EepromStore {
 /// The cells of an EEPROM chip in memory: each is written when it is told.
 class EepromCells final : public machine::EepromCells {
   public:
+    explicit EepromCells(std::size_t size) : bytes_(size, '\xFF') {}
     std::optional<std::string> load() override { return bytes_; }
     void store(std::size_t address, std::string_view bytes) override {
-        std::string cells = bytes_.value_or(std::string());
-        cells.resize(std::max(cells.size(), address + bytes.size()), '\xFF');
-        bytes_ = cells.replace(address, bytes.size(), bytes);
+        bytes_.replace(std::min(address, bytes_.size()), bytes.size(), bytes);
     }
 
   private:
-    std::optional<std::string> bytes_;
+    std::string bytes_;
 };
 
 /// The place of a job in memory, with the last ones that were kept. At a power cut the newest may not have

@@ -35,7 +35,7 @@ unsigned checksum(std::string_view text) {
 }  // namespace
 
 World::World(const Cast& cast, std::uint64_t seed, board::Observer* listener)
-    : cast_(cast), seed_(seed), listener_(listener) {
+    : cast_(cast), seed_(seed), listener_(listener), eeprom_cells_(cast.profile->machine->eeprom_bytes) {
     for (const auto& [path, content] : cast.files) {
         disk_.put(path, content);
     }
