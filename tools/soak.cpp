@@ -26,7 +26,8 @@ struct SoakOptions {
     std::string profile;
     std::string screen;
     double years = 1;
-    double seconds = 0;  ///< by the clock on the wall; 0: as long as it takes
+    double seconds = 0;        ///< by the clock on the wall; 0: as long as it takes
+    std::uint64_t worlds = 0;  ///< 0: as many as the years take
     std::uint64_t seed = 1;
     std::uint64_t steps = 60;
     std::vector<std::uint64_t> only;
@@ -115,7 +116,8 @@ ExitCode soak(const SoakOptions& options) {
             world::soak(cast, options.seed, options.steps, [&](const world::Soaked& so_far) {
                 progress.say(fmt::format("{} worlds, {:.2f} of {} years, {} requests", so_far.seeds,
                                          years(so_far.time), options.years, so_far.requests));
-                return years(so_far.time) >= options.years || over();
+                const bool enough = options.worlds > 0 && so_far.seeds >= options.worlds;
+                return years(so_far.time) >= options.years || enough || over();
             });
         progress.clear();
         print(options.json ? json_of(soaked) : text_of(soaked));
@@ -146,6 +148,7 @@ void add_soak(CLI::App& app, ExitCode& exit) {
         ->add_option("--seconds", options->seconds,
                      "Of real time, at most; the last world is played to its end")
         ->check(CLI::Range(0.0, 1e6));
+    command->add_option("--worlds", options->worlds, "How many lives, at most")->check(CLI::PositiveNumber);
     add_seed(*command, options->seed, "Of the first world; the next has the next");
     command->add_option("--steps", options->steps, "Things that happen in one world")
         ->check(CLI::Range(1, 1'000'000))
