@@ -11,6 +11,7 @@
 
 #include "emulator/host/profile_files.h"
 #include "emulator/host/screen_files.h"
+#include "emulator/host/script_files.h"
 #include "emulator/world/invariants.h"
 #include "emulator/world/play.h"
 #include "tools/option_values.h"
@@ -25,6 +26,7 @@ constexpr double seconds_a_year = 365.25 * 24 * 3600;
 struct SoakOptions {
     std::string profile;
     std::string screen;
+    std::string scenario;
     double years = 1;
     double seconds = 0;        ///< by the clock on the wall; 0: as long as it takes
     std::uint64_t worlds = 0;  ///< 0: as many as the years take
@@ -69,6 +71,19 @@ class Minutes final : public board::Observer {
     }
 };
 
+world::Cast cast_of(const SoakOptions& options) {
+    if (options.scenario.empty()) {
+        auto screen = options.screen.empty() ? nullptr : host::load_screen_by_name(options.screen);
+        return world::make_cast(host::load_profile_by_name(options.profile), std::move(screen));
+    }
+    const behaviour::SourceText source = host::find_script(options.scenario);
+    const std::string screen = options.screen.empty() ? script::read_head(source).screen : options.screen;
+    script::Cast cast;
+    cast.profile = host::load_profile_by_name(options.profile);
+    cast.screen = screen.empty() ? nullptr : host::load_screen_by_name(screen);
+    return world::make_cast(script::load_scenario(source, host::script_finder(), cast));
+}
+
 ExitCode replay_one(const world::Cast& cast, const SoakOptions& options) {
     Minutes minutes;
     const world::Outcome outcome =
@@ -102,8 +117,7 @@ ExitCode soak(const SoakOptions& options) {
         return ExitCode::ok;
     }
     try {
-        auto screen = options.screen.empty() ? nullptr : host::load_screen_by_name(options.screen);
-        const world::Cast cast = world::make_cast(host::load_profile_by_name(options.profile), screen);
+        const world::Cast cast = cast_of(options);
         if (!options.only.empty()) {
             return replay_one(cast, options);
         }
@@ -140,6 +154,10 @@ void add_soak(CLI::App& app, ExitCode& exit) {
     command
         ->add_option("--screen", options->screen,
                      "Who touches it: a screen of `fauxboard profiles`, or a file")
+        ->type_name("NAME|FILE");
+    command
+        ->add_option("--scenario", options->scenario,
+                     "Played over and over beside all that happens; its own waits may end in vain")
         ->type_name("NAME|FILE");
     command->add_option("--years", options->years, "Of virtual time, at least")
         ->check(CLI::Range(0.0, 1e6))

@@ -226,6 +226,19 @@ Cast make_cast(std::shared_ptr<const behaviour::Profile> profile,
     return cast;
 }
 
+Cast make_cast(std::shared_ptr<const script::Scenario> scenario) {
+    Cast cast = make_cast(scenario->cast.profile, scenario->cast.screen);
+    if (scenario->card) {
+        for (const machine::BuiltInEntry& entry : *scenario->card) {
+            if (!entry.folder) {
+                cast.files[entry.name] = entry.content;
+            }
+        }
+    }
+    cast.scenario = std::move(scenario);
+    return cast;
+}
+
 std::vector<Probe> probes_of(const std::shared_ptr<const behaviour::Profile>& profile, Channel channel) {
     std::vector<Probe> probes;
     const std::vector<std::string> by_itself = said(profile, channel, {});

@@ -9,6 +9,7 @@
 
 #include "emulator/behaviour/profile.h"
 #include "emulator/screen/screen_profile.h"
+#include "emulator/script/scenario.h"
 #include "emulator/world/print_watch.h"
 
 namespace fauxboard::world {
@@ -25,6 +26,7 @@ struct Probe {
 struct Cast {
     std::shared_ptr<const behaviour::Profile> profile;
     std::shared_ptr<const screen::ScreenProfile> screen;  ///< null: nobody touches this board
+    std::shared_ptr<const script::Scenario> scenario;     ///< of a user; null: there is none
     std::map<std::string, std::string> files;             ///< on the card at first
     std::vector<std::string> requests;                    ///< codes that the main line knows
     std::vector<std::string> commands;                    ///< codes that the USB side knows
@@ -43,6 +45,9 @@ struct Cast {
 /// nothing that was tried has no probe.
 Cast make_cast(std::shared_ptr<const behaviour::Profile> profile,
                std::shared_ptr<const screen::ScreenProfile> screen = nullptr);
+
+/// The same with a user's scenario, which is played over and over, and the files of its card.
+Cast make_cast(std::shared_ptr<const script::Scenario> scenario);
 
 /// All of a few harmless requests that a line of such a board answers when it is at rest.
 std::vector<Probe> probes_of(const std::shared_ptr<const behaviour::Profile>& profile,

@@ -123,6 +123,7 @@ void World::print(const std::string& file) {
 }
 
 void World::peace() {
+    scene_.reset();
     disk_.set_trouble(Disk::Trouble::none);
     eeprom_.fails = false;
     tinker([](machine::Machine& machine) {

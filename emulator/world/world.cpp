@@ -59,6 +59,9 @@ void World::make_board() {
     options.observer = this;
     board_ = std::make_unique<board::Board>(cast_.profile, services, options);
     board_->connect(Channel::host, true);
+    if (cast_.scenario) {
+        scene_.emplace(cast_.scenario);
+    }
     ledger_.lines_heard = ledger_.lines_said = 0;
     ledger_.harmed = false;
     ledger_.before = now_;
@@ -72,6 +75,9 @@ void World::make_board() {
 void World::on_received(SimTime now, Channel channel, std::string_view line, board::Verdict verdict) {
     if (listener_ != nullptr) {
         listener_->on_received(now, channel, line, verdict);
+    }
+    if (scene_) {
+        scene_->observer().on_received(now, channel, line, verdict);
     }
     ++ledger_.lines_heard;
     ++requests_;
@@ -91,6 +97,9 @@ void World::on_received(SimTime now, Channel channel, std::string_view line, boa
 void World::on_sent(SimTime now, Channel channel, std::string_view line) {
     if (listener_ != nullptr) {
         listener_->on_sent(now, channel, line);
+    }
+    if (scene_) {
+        scene_->observer().on_sent(now, channel, line);
     }
     ++ledger_.lines_said;
     if (channel != Channel::host || !cast_.probes[static_cast<std::size_t>(Channel::host)]) {
@@ -126,7 +135,10 @@ void World::on_power_on(SimTime now) {
     new_job();
 }
 
-void World::on_event(SimTime, machine::EventId event) {
+void World::on_event(SimTime now, machine::EventId event) {
+    if (scene_) {
+        scene_->observer().on_event(now, event);
+    }
     if (event->name == "job.started" || event->name == "job.stopped" || event->name == "job.replaced" ||
         event->name == "file.selected") {
         new_job();
@@ -209,6 +221,14 @@ void World::take_output() {
     note_place();
 }
 
+SimTime World::play_scene() {
+    const SimTime due = scene_->advance(now_, *board_, screen_ ? &*screen_ : nullptr);
+    if (scene_->acted()) {
+        new_job();  // it may have been sought in
+    }
+    return due;
+}
+
 /// Lets the board and the screen come to that moment, each at its own ones.
 void World::run_to(SimTime time) {
     SimTime last = now_;
@@ -223,6 +243,13 @@ void World::run_to(SimTime time) {
             continue;
         }
         SimTime next = std::min(due, time);
+        if (scene_) {
+            next = std::min(next, std::max(play_scene(), now_ + SimTime{1}));
+            if (scene_->acted()) {
+                take_output();
+                continue;
+            }
+        }
         if (screen_) {
             const SimTime screen_due = screen_->advance(now_);
             if (!screen_->output().empty()) {

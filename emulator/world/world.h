@@ -16,6 +16,7 @@
 #include "emulator/world/disk.h"
 #include "emulator/world/invariants.h"
 #include "emulator/world/ledger.h"
+#include "emulator/world/scene.h"
 #include "emulator/world/stores.h"
 
 namespace fauxboard::world {
@@ -95,6 +96,7 @@ class World final : private board::Observer {
     void ask(board::Channel channel);
     void walk();
     void proof_print();
+    SimTime play_scene();
     void note_place();
 
     const Cast& cast_;
@@ -106,6 +108,7 @@ class World final : private board::Observer {
     JobPlace job_place_;
     std::unique_ptr<board::Board> board_;
     std::optional<screen::Screen> screen_;
+    std::optional<Scene> scene_;
     Ledger ledger_;
     SimTime now_{0};
     SimTime past_{0};

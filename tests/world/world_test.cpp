@@ -6,6 +6,7 @@
 
 #include "emulator/host/profile_files.h"
 #include "emulator/host/screen_files.h"
+#include "emulator/host/script_files.h"
 #include "emulator/world/invariants.h"
 #include "emulator/world/play.h"
 #include "emulator/world/steps.h"
@@ -81,6 +82,16 @@ TEST_CASE("what a board prints is found by trying, and printed at the end of its
     cast.proof.tally = {0, 6};
     CHECK(play(cast, 1, {})
               .broken.starts_with("prints end: a print had 0 moves and 5 layers instead of 0 moves and 6"));
+}
+
+TEST_CASE("a scenario is played along, over and over, and is in the seed's bytes") {
+    const behaviour::SourceText source = host::find_script("print-with-filament-change");
+    const script::Cast with = host::make_cast("geeetech-a30t", script::read_head(source).screen);
+    const Cast cast = make_cast(script::load_scenario(source, host::script_finder(), with));
+    const Outcome once = play(cast, 5, whole(10));
+    CHECK_MESSAGE(once.held(), once.broken);
+    CHECK(play(cast, 5, whole(10)).digest == once.digest);
+    CHECK(play(make_cast(with.profile, with.screen), 5, whole(10)).digest != once.digest);
 }
 
 TEST_CASE("a broken promise shrinks to what breaks it, and its report plays again") {
