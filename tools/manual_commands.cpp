@@ -11,6 +11,7 @@
 #include "tools/command_tree.h"
 #include "tools/commands.h"
 #include "tools/manual.h"
+#include "tools/option_values.h"
 #include "tools/report.h"
 
 namespace fauxboard::tools {
@@ -45,15 +46,14 @@ ExitCode manual(const CLI::App& app, const std::string& name, const std::string&
 }  // namespace
 
 void add_manual(CLI::App& app, ExitCode& exit) {
-    CLI::App* pages =
-        app.add_subcommand("manual", "A manual page in roff: fauxboard manual run | man -l -");
+    CLI::App* pages = app.add_subcommand("manual", "A manual page in roff: fauxboard manual run | man -l -");
     const auto name = std::make_shared<std::string>();
     const auto folder = std::make_shared<std::string>();
     CLI::Option* command =
         pages->add_option("command", *name, "The command; fauxboard itself when none is named")
             ->check([&app](const std::string& text) {
                 return find_command(app, text) != nullptr ? std::string()
-                                                                    : "there is no command '" + text + "'";
+                                                          : "there is no command '" + text + "'";
             });
     pages->add_option("--all", *folder, "Write every page into this folder")
         ->type_name("DIR")
@@ -67,7 +67,7 @@ void add_manual(CLI::App& app, ExitCode& exit) {
         {"bash", Shell::bash}, {"zsh", Shell::zsh}, {"fish", Shell::fish}};
     shells->add_option("shell", *shell, "bash, zsh or fish")
         ->required()
-        ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+        ->check(one_of({"bash", "zsh", "fish"}));
     shells->callback([&app, shell, &exit] {
         print(completion(app, known.at(*shell)));
         exit = ExitCode::ok;
