@@ -50,6 +50,14 @@ void ControlScreen::touch(int x, int y) {
     ask({{"op", "touch"}, {"x", x}, {"y", y}});
 }
 
+void ControlScreen::hold_time() {
+    const Json answer = ask({{"op", "hold"}, {"on", true}});
+    if (!answer.value("ok", false)) {
+        throw link::HostError(
+            answer.value("/error/message"_json_pointer, "The board does not hold its time."));
+    }
+}
+
 void ControlScreen::pass(std::string_view time) {
     ask({{"op", "advance"}, {"by", time}});
 }

@@ -25,6 +25,8 @@ class ControlScreen {
     std::string touch(std::string_view control);
     /// Touches a pixel.
     void touch(int x, int y);
+    /// From now on the board's time passes by touch() and pass() alone, for as long as this is there.
+    void hold_time();
     /// Lets the board's time pass.
     void pass(std::string_view time);
     /// The screen's profile, found by the board's.

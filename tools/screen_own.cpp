@@ -56,7 +56,10 @@ class OwnTour {
         }
     }
 
+    /// The board's time stands still meanwhile, so that it is the same tour on a computer that is slow or
+    /// busy.
     void run() {
+        screen_.hold_time();
         for (int round = 0; round < rounds; ++round) {
             std::size_t touches = 0;
             for (Json page = settle(); touches < most_touches; ++touches) {
@@ -151,12 +154,22 @@ class OwnTour {
     using Touches = std::set<std::pair<std::size_t, unsigned>>;
     static constexpr std::ptrdiff_t most_times = 3;  ///< where the page reads the same
     static constexpr std::size_t most_touches_each = 12;
+    static constexpr unsigned most_wandered = 200;
 
     static std::string key_of(const Json& control) {
         return control.value("name", "") + "\n" + control.value("label", "");
     }
     static std::size_t texts_of(const Json& page) {
         return std::hash<std::string>{}(page.at("texts").dump());
+    }
+
+    /// What ways lead from and to: a place with the controls that it has now. Another folder is another one.
+    static std::string node_of(const Json& page) {
+        std::string out = place_of(page);
+        for (const Json& control : page.at("controls")) {
+            if (control.value("enabled", true)) out += "\n" + key_of(control);
+        }
+        return out;
     }
 
     bool worth_touching(const std::string& place, const std::string& key, std::size_t texts) {
@@ -180,24 +193,38 @@ class OwnTour {
             enabled.push_back(control);
             if (worth_touching(place, key_of(control), texts_of(page))) untouched.push_back(control);
         }
-        open_[place] = untouched.size();
+        const std::string node = node_of(page);
+        open_[node] = untouched.size();
         for (const bool leaving : {false, true}) {
             for (const Json& control : untouched) {
                 const std::string name = control.value("name", "");
                 if ((name == "Back" || name == "OK" || name == "Yes") == leaving) return control;
             }
         }
-        return way_on(place, enabled);
+        const auto way = way_on(node, enabled);
+        return way ? way : wander(place, enabled);
+    }
+
+    /// No way is known, but not all has been seen: the control that was touched least here, which may make
+    /// another page of this one, say by leaving a folder.
+    std::optional<Json> wander(const std::string& place, const std::vector<Json>& enabled) {
+        if (wandered_ == most_wandered || enabled.empty() || complete()) {
+            return std::nullopt;
+        }
+        ++wandered_;
+        auto& used = used_[place];
+        return *std::min_element(enabled.begin(), enabled.end(), [&](const Json& a, const Json& b) {
+            return used[key_of(a)] < used[key_of(b)];
+        });
     }
 
     /// The least used control that once led to a place from which there is still something to do.
-    std::optional<Json> way_on(const std::string& place, const std::vector<Json>& enabled) {
-        std::map<std::string, const Json*>
-            first;  // of each place: the control here that begins the way there
+    std::optional<Json> way_on(const std::string& node, const std::vector<Json>& enabled) {
+        std::map<std::string, const Json*> first;  // of each node: the control here that begins the way there
         std::vector<std::string> queue;
         for (const Json& control : enabled) {
-            const auto way = ways_[place].find(key_of(control));
-            if (way != ways_[place].end() && way->second != place &&
+            const auto way = ways_[node].find(key_of(control));
+            if (way != ways_[node].end() && way->second != node &&
                 first.emplace(way->second, &control).second) {
                 queue.push_back(way->second);
             }
@@ -206,7 +233,7 @@ class OwnTour {
             const std::string here = queue[i];
             if (open_[here] > 0) return *first[here];
             for (const auto& [key, to] : ways_[here]) {
-                if (to != place && first.emplace(to, first[here]).second) queue.push_back(to);
+                if (to != node && first.emplace(to, first[here]).second) queue.push_back(to);
             }
         }
         return std::nullopt;
@@ -215,6 +242,7 @@ class OwnTour {
     void touch(const Json& page, const Json& control) {
         const std::string from = place_of(page);
         const std::string name = control.value("name", "");
+        ++used_[from][key_of(control)];
         const std::pair state{texts_of(page), confirmed_};
         Outcome outcome{from, name, {}, screen_.touch(name)};
         const Json after = screen_.page();
@@ -225,19 +253,20 @@ class OwnTour {
             let_it_work();
         }
         note(after);
-        const std::string settled = place_of(settle());
+        const std::string here = node_of(page);
+        const std::string settled = node_of(settle());
         if (touched_[from][key_of(control)].insert(state).second) {
-            open_[from] -= open_[from] > 0 ? 1U : 0U;
+            open_[here] -= open_[here] > 0 ? 1U : 0U;
             const bool known = std::any_of(outcomes_.begin(), outcomes_.end(), [&](const Outcome& one) {
                 return one.from == from && one.control == name && one.to == outcome.to;
             });
             if (!known) outcomes_.push_back(outcome);
         }
-        if (settled != from) {
-            ways_[from][key_of(control)] = settled;
+        if (settled != here) {
+            ways_[here][key_of(control)] = settled;
             open_.emplace(settled, 1);  // until it has been looked at
         } else {
-            ways_[from].erase(key_of(control));
+            ways_[here].erase(key_of(control));
         }
     }
 
@@ -266,7 +295,9 @@ class OwnTour {
     std::set<std::string> seen_;
     std::map<std::string, std::map<std::string, Touches>> touched_;
     std::map<std::string, std::map<std::string, std::string>> ways_;
-    std::map<std::string, std::size_t> open_;  ///< controls not touched yet, by place
+    std::map<std::string, std::map<std::string, unsigned>> used_;  ///< how often, by place and control
+    unsigned wandered_ = 0;
+    std::map<std::string, std::size_t> open_;  ///< controls not touched yet, by node
     std::vector<Outcome> outcomes_;
 };
 

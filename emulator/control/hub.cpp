@@ -71,6 +71,22 @@ void Hub::publish(TopicId topic, SimTime now, const Json& members) {
     });
 }
 
+void Hub::remove(Session& session) {
+    hold(session, false);
+    std::erase(sessions_, &session);
+}
+
+void Hub::hold(const Session& session, bool held) {
+    const bool before = this->held();
+    std::erase(holding_, &session);
+    if (held) {
+        holding_.push_back(&session);
+    }
+    if (before != this->held()) {
+        target_.hold(this->held());
+    }
+}
+
 SimTime Hub::on_moved(SimTime now) {
     SimTime next = machine::never;
     for (Session* session : sessions_) {

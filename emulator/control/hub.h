@@ -41,6 +41,10 @@ class Hub final : public board::Observer {
     void on_sent(SimTime now, board::Channel channel, std::string_view line) override;
     void on_notice(SimTime now, board::Level level, std::string_view text) override;
 
+    /// This client wants time to stand still, or no longer does; it goes on when nobody does.
+    void hold(const Session& session, bool held);
+    bool held() const { return !holding_.empty(); }
+
     Target& target() { return target_; }
     std::size_t size() const { return sessions_.size(); }
 
@@ -60,7 +64,7 @@ class Hub final : public board::Observer {
   private:
     friend class Session;
     void add(Session& session) { sessions_.push_back(&session); }
-    void remove(Session& session) { std::erase(sessions_, &session); }
+    void remove(Session& session);
     template <class Make>
     void tell(TopicId topic, Make&& make);
     void tell_line(SimTime now, std::string_view from, std::string_view line, protocol::Direction direction,
@@ -68,6 +72,7 @@ class Hub final : public board::Observer {
 
     Target& target_;
     std::vector<Session*> sessions_;
+    std::vector<const Session*> holding_;
     Json* heard_ = nullptr;
 };
 

@@ -65,6 +65,9 @@ Answer touch(const Call& call) {
     if (touched.done <= call.now) {
         return Json::object();
     }
+    if (call.hub.held()) {
+        call.target.skip(touched.done - call.now);
+    }
     call.session.answer_at(touched.done);
     return std::nullopt;
 }

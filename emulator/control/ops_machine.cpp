@@ -195,8 +195,17 @@ Answer send(const Call& call) {
     return Json::object();
 }
 
-// advance
+// hold, advance
 // -----------------------------------------------------------------------------------------------
+
+Answer hold(const Call& call) {
+    const Json& on = call.at("on");
+    if (!on.is_boolean()) {
+        throw ControlError(ErrorCode::bad_arguments, "\"on\" is true or false.");
+    }
+    call.hub.hold(call.session, on.get<bool>());
+    return Json::object();
+}
 
 Answer advance(const Call& call) {
     const SimTime by = call.time("by", shortest_advance, longest_advance);
@@ -218,6 +227,7 @@ constexpr std::array send_params{
     Param{"frame", text, false, "a frame of the profile, by its name"},
     Param{"line", text, false, "a line that is put into a frame: \"L18 P1 S2\""},
     Param{"raw", text, false, "bytes as they are; a line end is added when there is none"}};
+constexpr std::array hold_params{Param{"on", any, true, "true: it stands still; false: it goes on"}};
 constexpr std::array advance_params{Param{"by", time, true, "1 us to 30 days of virtual time"}};
 
 constexpr std::array table{
@@ -226,6 +236,10 @@ constexpr std::array table{
     Op{"world", "does something to the machine by its phrase", world_params, world},
     Op{"send", "sends something to the screen: a frame waits for its tick, line and raw leave at once",
        send_params, send, true},
+    Op{"hold",
+       "virtual time stands still but for advance and touch, for as long as this client is there and wants "
+       "it",
+       hold_params, hold, true},
     Op{"advance",
        "virtual time jumps forward, with everything that happens meanwhile; answers when it has got there, "
        "and "

@@ -52,6 +52,8 @@ class Target {
     /// Makes virtual time jump forward by `by`, 1 us or more, once this request is through. Returns the time
     /// at which that is done; Hub::on_moved() hears of it. Called from inside visit().
     virtual SimTime skip(SimTime by) = 0;
+    /// Virtual time stands still but for skip(), or goes on. Called from inside visit(), or between two.
+    virtual void hold(bool /*held*/) {}
     /// Ends the run, soon.
     virtual void quit() = 0;
     /// Null when this run's line has none.

@@ -80,6 +80,14 @@ void Clock::skip(SimTime by) {
     arm(earliest());
 }
 
+void Clock::hold(bool held) {
+    if (held != held_) {
+        held_ = held;
+        hold_changed();
+        arm(earliest());
+    }
+}
+
 namespace {
 
 class RealClock final : public Clock {
@@ -98,7 +106,8 @@ class RealClock final : public Clock {
   private:
     static constexpr double longest_wait_us = 3e15;  // 95 years
 
-    SimTime time() const override {
+    SimTime time() const override { return held() ? held_at_ : running(); }
+    SimTime running() const {
         if (!started_) {
             return skipped_;
         }
@@ -113,10 +122,11 @@ class RealClock final : public Clock {
     void arm(SimTime when) override {
         // A timer that rings too early costs one turn of the loop; moving it costs a system call each time,
         // and most requests move the next thing due to and fro.
-        if (when >= armed_ || !started_) {
+        if (when >= armed_ || !started_ || (held() && when > held_at_)) {
             return;
         }
-        const double real_us = std::ceil(static_cast<double>((when - skipped_).count()) / speed_);
+        const double real_us =
+            held() ? 0 : std::ceil(static_cast<double>((when - skipped_).count()) / speed_);
         if (real_us > longest_wait_us) {
             return;
         }
@@ -130,8 +140,17 @@ class RealClock final : public Clock {
     }
 
     void skipped(SimTime by) override {
-        skipped_ += by;
+        (held() ? held_at_ : skipped_) += by;
         armed_ = never;  // the timer is for a moment that comes sooner now
+    }
+
+    void hold_changed() override {
+        if (held()) {
+            held_at_ = running();
+        } else {
+            skipped_ += held_at_ - running();
+            armed_ = never;
+        }
     }
 
     link::EventLoop& loop_;
@@ -140,6 +159,7 @@ class RealClock final : public Clock {
     std::chrono::steady_clock::time_point origin_;
     bool started_ = false;
     SimTime skipped_{0};
+    SimTime held_at_{0};
     SimTime armed_ = never;
 };
 
@@ -152,11 +172,11 @@ class JumpingClock final : public Clock {
     void run() override {
         SimTime next = never;
         while (!loop_.stopped()) {
-            next = earliest();
+            next = next_jump();
             for (int i = 0; i < steps_per_poll && next != never && !loop_.stopped(); ++i) {
                 now_ = std::max(now_, next);
                 ring_due();
-                next = earliest();
+                next = next_jump();
             }
             if (loop_.stopped()) {
                 return;
@@ -174,6 +194,11 @@ class JumpingClock final : public Clock {
   private:
     static constexpr int steps_per_poll = 64;
 
+    /// Held, it does not jump; what is due by now rings.
+    SimTime next_jump() const {
+        const SimTime next = earliest();
+        return held() && next > now_ ? never : next;
+    }
     SimTime time() const override { return now_; }
     void arm(SimTime) override {}
     void skipped(SimTime by) override { now_ += by; }

@@ -61,6 +61,9 @@ class Clock {
     /// Makes time jump forward by `by`, which is not negative, and rings what is due on the way, each at its
     /// moment. Descriptors get no turn. Called from inside an alarm or a skip it throws std::logic_error.
     void skip(SimTime by);
+    /// Held, time stands still but for skips; what is due rings all the same. Let go, it goes on from there.
+    void hold(bool held);
+    bool held() const { return held_; }
     /// Runs the event loop until somebody calls its stop(), or it has nothing left to wait for.
     virtual void run() = 0;
 
@@ -71,6 +74,8 @@ class Clock {
     virtual void arm(SimTime when) = 0;
     /// All time() to come is so much later.
     virtual void skipped(SimTime by) = 0;
+    /// Time is held from now on, or goes on from where it is.
+    virtual void hold_changed() {}
 
     /// Rings what is due, each alarm once: one that wants to ring again at once waits for the next round, so
     /// that others get their turn. Then arms for what comes next.
@@ -85,6 +90,7 @@ class Clock {
     std::vector<Alarm*> alarms_;  ///< few: a board, its faults, a script
     std::uint64_t round_ = 0;
     bool ringing_ = false;
+    bool held_ = false;
     SimTime skipping_at_ = machine::never;
 };
 

@@ -121,11 +121,9 @@ std::string LineLog::fit(std::string_view text, std::size_t column) const {
     return std::string(text.substr(0, end - 1)) + "…";
 }
 
-std::string LineLog::words_of(board::Channel channel, std::string_view line,
-                              protocol::Direction direction) const {
-    const protocol::DecodedLine decoded = protocol::decode_line(line, direction);
-    std::string own = own_words_ ? own_words_(channel, decoded) : std::string();
-    return own.empty() ? protocol::explain(decoded) : own;
+std::string LineLog::words_of(board::Channel channel, const protocol::DecodedLine& line) const {
+    std::string own = own_words_ ? own_words_(channel, line) : std::string();
+    return own.empty() ? protocol::explain(line) : own;
 }
 
 void LineLog::on_received(SimTime now, board::Channel channel, std::string_view received,
@@ -134,7 +132,7 @@ void LineLog::on_received(SimTime now, board::Channel channel, std::string_view 
         return;
     }
     const std::string line = protocol::mask_secrets(received);
-    std::string words = words_of(channel, line, protocol::Direction::to_board);
+    std::string words = words_of(channel, protocol::decode_line(line, protocol::Direction::to_board));
     words += host::words_of(verdict);
     print(now, verdict == board::Verdict::accepted ? Ink::incoming : Ink::error,
           fmt::format("{} → board", other_end(channel)), behaviour::as_ascii(line), words);
@@ -142,9 +140,11 @@ void LineLog::on_received(SimTime now, board::Channel channel, std::string_view 
 
 void LineLog::on_sent(SimTime now, board::Channel channel, std::string_view line) {
     if (detail_ != Detail::quiet && passes(now)) {
-        const bool screen = channel == board::Channel::main;
+        const protocol::DecodedLine decoded = protocol::decode_line(line, protocol::Direction::to_screen);
+        // What a board says to people on its USB port is in no list.
+        const bool known = channel == board::Channel::main || decoded.code != nullptr;
         print(now, Ink::outgoing, fmt::format("board → {}", other_end(channel)), behaviour::as_ascii(line),
-              screen ? words_of(channel, line, protocol::Direction::to_screen) : std::string());
+              known ? words_of(channel, decoded) : std::string());
     }
 }
 

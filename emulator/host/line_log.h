@@ -70,7 +70,7 @@ class LineLog final : public LiveObserver {
         return channel == board::Channel::main ? std::string_view(peer_) : board::other_end(channel);
     }
 
-    std::string words_of(board::Channel channel, std::string_view line, protocol::Direction direction) const;
+    std::string words_of(board::Channel channel, const protocol::DecodedLine& line) const;
     /// What fits behind `column`.
     std::string fit(std::string_view text, std::size_t column) const;
 

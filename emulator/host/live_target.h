@@ -82,6 +82,7 @@ class LiveTarget final : public LiveObserver, private control::Target, private c
     // control::Target
     void visit(const std::function<void(board::Board&, SimTime)>& use) override { parts_.live.visit(use); }
     SimTime skip(SimTime by) override;
+    void hold(bool held) override { parts_.clock.hold(held); }
     void quit() override { parts_.loop.post(parts_.quit); }
     fault::FaultControl* faults() override { return parts_.faults; }
     control::Display* display() override { return parts_.display; }

@@ -24,6 +24,7 @@ struct JudgedLine {
     std::string piece;  ///< of a datagram that is a piece of a file: what it brings
     std::vector<LineMark> marks;
     std::string own;  ///< the words that a profile has of its own for it
+    std::string_view peer = "screen";  ///< what the main line's other end is called; see protocol::PeerName
 };
 
 /// Finds something to say against lines, or nothing. Rows of a table: see line_judges().

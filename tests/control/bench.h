@@ -33,6 +33,7 @@ struct Bench final : Target {
         skip_to = std::max(skip_to, now) + by;
         return skip_to;
     }
+    void hold(bool still) override { held = still; }
     void quit() override { ended = true; }
     fault::FaultControl* faults() override { return with_faults ? &loose : nullptr; }
     Json status() const override { return {{"link", {{"kind", "none"}}}}; }
@@ -73,6 +74,7 @@ struct Bench final : Target {
     bool with_faults = true;
     Display* shown = nullptr;
     bool ended = false;
+    bool held = false;
     SimTime now{0};
     SimTime skip_to{0};
     std::string sent;

@@ -1,7 +1,7 @@
 // The ops at the screen that shows a board.
 
-#include "emulator/control/base64.h"
 #include "emulator/control/display.h"
+#include "emulator/control/base64.h"
 #include "tests/control/bench.h"
 
 namespace fauxboard::control::test {
@@ -46,6 +46,36 @@ TEST_CASE("touch answers when the finger is off again") {
     CHECK(answers[0]["ok"] == true);
     CHECK(client.ask(R"({"op": "touch", "x": 330, "y": 17, "for": "2600ms"})").is_null());
     CHECK(screen.noted == "330,17 for 2600000");
+}
+
+TEST_CASE("while time is held, a touch lets pass what it takes, and nothing else does") {
+    Bench bench;
+    Noting screen;
+    bench.shown = &screen;
+    Client client(bench);
+    CHECK_FALSE(bench.held);
+    CHECK(client.ask(R"({"op": "hold", "on": true})")["ok"] == true);
+    CHECK(bench.held);
+    {
+        Client other(bench);
+        CHECK(other.ask(R"({"op": "hold", "on": true})")["ok"] == true);
+    }
+    CHECK(bench.held);  // one of two is gone
+    const SimTime before = bench.now;
+    CHECK(client.ask(R"({"op": "touch", "control": "Files"})").is_null());
+    bench.jump();
+    CHECK(bench.now == before + 120ms);
+    CHECK(client.lines().at(0)["ok"] == true);
+    CHECK(client.code(R"({"op": "hold", "on": 1})") == "bad-arguments");
+    CHECK(client.code(R"({"op": "hold"})") == "bad-request");
+    CHECK(client.ask(R"({"op": "hold", "on": false})")["ok"] == true);
+    CHECK_FALSE(bench.held);
+    {
+        Client other(bench);
+        CHECK(other.ask(R"({"op": "hold", "on": true})")["ok"] == true);
+        CHECK(bench.held);
+    }
+    CHECK_FALSE(bench.held);  // who held it is gone
 }
 
 TEST_CASE("wrong touches are told") {

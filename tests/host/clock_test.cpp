@@ -54,6 +54,37 @@ TEST_CASE("at full speed the event loop gets its turn, also when nothing is due"
     CHECK(rung >= 100'000);
 }
 
+TEST_CASE("time that is held passes by skips alone, and what is due rings all the same") {
+    for (const bool max : {true, false}) {
+        CAPTURE(max);
+        link::EventLoop loop;
+        const auto clock = make_clock(loop, {1000, max});
+        std::vector<SimTime> rung;
+        const auto alarm = clock->make_alarm([&] {
+            rung.push_back(clock->now());
+            if (rung.size() == 2) {
+                loop.post([&] { clock->hold(false); });
+            }
+        });
+        const auto last = clock->make_alarm([&] { loop.stop(); });
+        clock->start();
+        alarm->at(1h);
+        clock->hold(true);
+        const SimTime held_at = clock->now();
+        CHECK(clock->held());
+        loop.post([&] {
+            CHECK(clock->now() == held_at);
+            clock->skip(2h);
+            CHECK(rung.size() == 1);
+            last->at(held_at + 2h + 1s);
+            alarm->at(held_at + 2h);  // later than real time has got, and due all the same
+        });
+        clock->run();
+        CHECK(rung == std::vector<SimTime>{1h, held_at + 2h});
+        CHECK(clock->now() >= held_at + 2h + 1s);
+    }
+}
+
 TEST_CASE("an alarm of the real clock never rings before its time, and the latest wish counts") {
     for (const double factor : {1.0, 1e6, 1000.0}) {
         CAPTURE(factor);
