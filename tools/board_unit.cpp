@@ -115,10 +115,14 @@ void BoardUnit::add_faults() {
         }
         if (!fault::is_for_printer(spec)) {
             faults_->add(spec);
-        } else if (board_->machine().faults.add(SimTime{0}, fault::to_request(spec)) == 0) {
+            continue;
+        }
+        const machine::FaultRequest request = fault::to_request(spec);
+        if (board_->machine().faults.add(SimTime{0}, request) == 0) {
             throw fault::FaultSpecError({fmt::format("fault \"{}\": {}", text,
                                                      board_->machine().faults.refusal(*spec.kind->printer))});
         }
+        observers_.on_world(SimTime{0}, fault::world_words(request, SimTime{0}));
     }
 }
 
@@ -134,8 +138,14 @@ void BoardUnit::tell_of_faults() {
     if (host_link_) {
         listen(*host_link_, board::Channel::host);
     }
+    fault_alarm_ = clock_->make_alarm([this] {
+        live_->visit([](board::Board& board, SimTime now) { board.refresh(now); });
+        fault_watch_->look();
+    });
     observers_.add(fault_watch_.emplace(
-        *board_, *faults_, [this](const std::string& sentence) { say(board::Level::info, sentence); }));
+        *board_, *faults_,
+        [this](const std::string& sentence) { observers_.on_fault(live_->now(), sentence); },
+        [this](SimTime when) { fault_alarm_->at(when); }));
 }
 
 /// What a board keeps when it is off: some as values, some byte by byte.
@@ -196,14 +206,16 @@ void BoardUnit::open_target(std::function<void()> quit) {
     target_.emplace(host::LiveTarget::Parts{loop_, *board_, *live_, *clock_, *link_, &*faults_,
                                             std::move(quit), options_.speed.max ? 0 : options_.speed.factor,
                                             plug_ || screen_ ? nullptr : host::screen_of(*profile_),
-                                            display_.get()});
+                                            display_.get(), [this](SimTime now, std::string_view sentence) {
+                                                observers_.on_notice(now, board::Level::info, sentence);
+                                            }});
     if (plug_) {
         target_->show(*plug_);
     }
     observers_.add(*target_);
     if (!options_.control.empty()) {
         control_.emplace(loop_, target_->hub(),
-                         [this](std::string_view text) { say(board::Level::info, text); });
+                         [this](board::Level level, std::string_view text) { say(level, text); });
         control_->open(options_.control);
     }
 }

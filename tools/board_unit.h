@@ -118,6 +118,7 @@ class BoardUnit {
     std::optional<host::FaultyLink> host_link_;
     std::optional<host::LineFaults> faults_;
     std::optional<host::FaultWatch> fault_watch_;
+    std::unique_ptr<host::Alarm> fault_alarm_;  ///< when a fault of the printer begins or ends
     std::optional<touch::TouchScreen> screen_;  ///< part of the board
     std::optional<board::Board> board_;
     std::optional<host::LiveBoard> live_;

@@ -144,6 +144,28 @@ void check_form(const behaviour::Document& document, const SourceText& source, c
     }
 }
 
+/// For editors only; a copied file's path leads nowhere.
+std::string schema_remark(const behaviour::Document& document, const SourceText& source, const Kind& kind) {
+    const auto schema = document.root.find("$schema");
+    if (schema == document.root.end() || !schema->is_string()) {
+        return {};
+    }
+    const std::string& path = schema->get_ref<const std::string&>();
+    std::error_code error;
+    if (path.find("://") != std::string::npos ||
+        fs::exists(fs::path(source.name).parent_path() / path, error)) {
+        return {};
+    }
+    for (const fs::path& folder : host::profile_folders()) {
+        const fs::path there = fs::absolute(folder / "schemas" / kind.schema, error).lexically_normal();
+        if (fs::exists(there, error)) {
+            return "\"$schema\": \"" + path + "\" leads nowhere from here; for editors write \"" +
+                   there.string() + "\"";
+        }
+    }
+    return {};
+}
+
 /// The profile, screen or scenario whose name is most like this one, with its kind; empty when `file` is a
 /// path.
 std::string nearest_name(const std::string& file) {
@@ -199,6 +221,9 @@ CheckedFile check_file(const std::string& file) {
             out.problems = error.problems();
         }
         check_form(document, *source, *kind, out);
+        if (out.remark.empty()) {
+            out.remark = schema_remark(document, *source, *kind);
+        }
     } catch (const behaviour::ProfileError& error) {
         out.problems = error.problems();  // no JSON at all
     }

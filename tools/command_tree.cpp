@@ -188,4 +188,22 @@ std::vector<DeclaredCommand> declared_commands(const CLI::App& app) {
     return out;
 }
 
+std::string wrong_use(const CLI::App& app, const std::string& what) {
+    const CLI::App* command = &app;
+    std::string path = app.get_name();
+    for (auto parsed = app.get_subcommands(); !parsed.empty(); parsed = command->get_subcommands()) {
+        command = parsed.front();
+        path += " " + command->get_name();
+    }
+    std::string text = path + ": " + what;
+    if (const auto below = commands_of(*command); what == "A subcommand is required" && !below.empty()) {
+        std::vector<std::string> known;
+        for (const CLI::App* sub : below) {
+            known.push_back(sub->get_name());
+        }
+        text = fmt::format("{}: a command is missing; known: {}", path, fmt::join(known, " "));
+    }
+    return fmt::format("{}\nRun {} --help for more information.\n", text, path);
+}
+
 }  // namespace fauxboard::tools

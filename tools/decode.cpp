@@ -17,6 +17,8 @@
 #include <utility>
 #include <vector>
 
+#include "emulator/behaviour/own_words.h"
+#include "emulator/host/profile_files.h"
 #include "emulator/host/screen_files.h"
 #include "emulator/link/host_error.h"
 #include "emulator/record/screen_judge.h"
@@ -43,7 +45,8 @@ For lines that do not say who said them, that is told by what they say.)";
 
 struct DecodeOptions {
     std::vector<std::string> files;
-    std::string screen;  ///< name or file; empty: no screen judges
+    std::string screen;   ///< name or file; empty: no screen judges
+    std::string profile;  ///< name or file; empty: the protocol's words alone
     bool json = false;
 };
 
@@ -92,6 +95,18 @@ class Inputs {
     std::vector<record::TranscriptReader> readers_;
 };
 
+/// What the profile has words for is not unknown.
+void add_own_words(const behaviour::Profile& profile, record::JudgedLine& line) {
+    if (!line.decoded) {
+        return;
+    }
+    line.own = behaviour::own_words(profile, *line.decoded);
+    if (!line.own.empty()) {
+        std::erase_if(line.marks,
+                      [](const record::LineMark& mark) { return mark.kind.starts_with("unknown"); });
+    }
+}
+
 ExitCode decode(const DecodeOptions& options) {
     try {
         std::ios::sync_with_stdio(false);  // so that lines of a pipe are taken as they come
@@ -113,6 +128,7 @@ ExitCode decode(const DecodeOptions& options) {
         if (!options.screen.empty()) {
             judges.push_back(record::screen_judge(host::load_screen_by_name(options.screen)));
         }
+        const auto profile = options.profile.empty() ? nullptr : host::load_profile_by_name(options.profile);
         record::Transcripts transcripts(inputs.take());
         std::size_t lines = 0;
         bool sense = false;
@@ -120,6 +136,9 @@ ExitCode decode(const DecodeOptions& options) {
         Batch batch;
         while (auto entry = transcripts.next()) {
             record::JudgedLine line = record::judge(std::move(*entry), judges);
+            if (profile) {
+                add_own_words(*profile, line);
+            }
             line.peer = line.decoded ? peer.at(*line.decoded) : peer.get();
             ++lines;
             sense = sense || record::makes_sense(line);
@@ -155,6 +174,11 @@ void add_decode(CLI::App& app, ExitCode& exit) {
             "--screen", options->screen,
             "Judge the board's lines as this screen would take them: a name of `fauxboard profiles`, or "
             "a file")
+        ->type_name("NAME|FILE");
+    command
+        ->add_option("--profile", options->profile,
+                     "Use the words that this profile has for codes of its own: a name of `fauxboard "
+                     "profiles`, or a file")
         ->type_name("NAME|FILE");
     command->add_flag("--json", options->json, "One JSON object a line; timed ones are a recording again");
     command->footer(legend);

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "emulator/host/profile_files.h"
+#include "emulator/host/program_log.h"
 #include "emulator/host/text_output.h"
 #include "emulator/link/host_error.h"
 #include "emulator/panel/panel.h"
@@ -30,6 +31,7 @@ struct FleetArguments {
     host::Speed speed;
     machine::SimTime duration = machine::never;
     bool quiet = false;
+    LogOptions log;
 };
 
 /// Says of one board what a person has to know: with its name, warnings and errors only.
@@ -58,7 +60,12 @@ class FleetRun {
           fleet_(std::move(fleet)),
           out_(STDOUT_FILENO),
           err_(STDERR_FILENO),
-          signals_(loop_, link::ending_signals(), [this](int) { loop_.stop(); }) {}
+          signals_(loop_, link::ending_signals(), [this](int) { loop_.stop(); }) {
+        if (arguments.log.wanted()) {
+            log_file_.emplace(arguments.log.for_file(),
+                              [this](std::string_view text) { err_.write(std::string(text) + "\n"); });
+        }
+    }
 
     ExitCode operator()() {
         for (FleetBoard& board : fleet_.boards) {
@@ -99,9 +106,18 @@ class FleetRun {
             : troubles(run.err_, board.name),
               unit(run.loop_, board.options, std::move(profile), nullptr, observers) {
             if (!run.arguments_.quiet) observers.add(troubles);
+            if (run.log_file_) {
+                const LogOptions& wanted = run.arguments_.log;
+                observers.add(log.emplace(
+                    *run.log_file_, host::ProgramLog::Style{wanted.file_level(), wanted.json, board.name}));
+                for (const std::string& words : first_words(board.options, *unit.profile())) {
+                    log->say(machine::SimTime{0}, host::LogLevel::info, "program", words);
+                }
+            }
         }
         host::Observers observers;
         Troubles troubles;
+        std::optional<host::ProgramLog> log;
         BoardUnit unit;
     };
 
@@ -146,6 +162,7 @@ class FleetRun {
     link::EventLoop loop_;
     host::TextOutput out_;
     host::TextOutput err_;
+    std::optional<host::LogFile> log_file_;  ///< of all boards
     ReadyLine ready_{loop_, out_};
     std::map<std::string, std::shared_ptr<const behaviour::Profile>>
         profiles_;  ///< by what the file calls them
@@ -193,6 +210,7 @@ void add_fleet(CLI::App& app, ExitCode& exit) {
     add_speed(*command, arguments->speed, false);
     add_duration(*command, arguments->duration, "Stop after this virtual time");
     command->add_flag("-q,--quiet", arguments->quiet, "Say nothing of the boards' troubles");
+    add_log(*command, arguments->log);
     command->callback([arguments, &exit] { exit = fleet(*arguments); });
 }
 

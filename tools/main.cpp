@@ -108,9 +108,7 @@ int run_app(int argc, char** argv) {
     } catch (const CLI::Success& success) {  // --help, --version
         return app.exit(success) == 0 ? static_cast<int>(ExitCode::ok) : static_cast<int>(ExitCode::internal);
     } catch (const CLI::ParseError& error) {
-        std::ostringstream out;
-        app.exit(error, out, out);  // may hold what was given: it goes the way of all text
-        print_error(out.str());
+        print_error(wrong_use(app, error.what()));  // may hold what was given: it goes the way of all text
         return static_cast<int>(ExitCode::usage);
     }
     return static_cast<int>(exit);

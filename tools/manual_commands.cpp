@@ -12,6 +12,7 @@
 #include "tools/command_tree.h"
 #include "tools/commands.h"
 #include "tools/manual.h"
+#include "tools/option_values.h"
 #include "tools/report.h"
 
 namespace fauxboard::tools {
@@ -67,7 +68,7 @@ void add_manual(CLI::App& app, ExitCode& exit) {
         {"bash", Shell::bash}, {"zsh", Shell::zsh}, {"fish", Shell::fish}};
     shells->add_option("shell", *shell, "bash, zsh or fish")
         ->required()
-        ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+        ->check(one_of({"bash", "zsh", "fish"}));
     shells->callback([&app, shell, &exit] {
         print(completion(app, known.at(*shell)));
         exit = ExitCode::ok;

@@ -15,6 +15,7 @@
 
 #include "emulator/host/profile_files.h"
 #include "tools/commands.h"
+#include "tools/option_values.h"
 #include "tools/report.h"
 
 namespace fauxboard::tools {
@@ -43,7 +44,8 @@ constexpr Template templates[] = {
   }
 }
 )",
-     "fauxboard run --profile {0}, and change it while it runs; `fauxboard describe` lists all that it can say"},
+     "fauxboard run --profile {0}, and change it while it runs; `fauxboard describe` lists all that it can "
+     "say"},
     {"screen",
      R"({
   "$schema": "@SCHEMA@/screen.schema.json",
@@ -129,7 +131,8 @@ ExitCode create(const std::string& kind, const std::string& name) {
     if (std::fclose(out) != 0 || !written) {
         return complain("new", ExitCode::bad_input, file + ": " + std::strerror(errno));
     }
-    print(fmt::format("{}\n  fauxboard check {}\n  {}\n", file, file, fmt::format(fmt::runtime(hit->next), file)));
+    print(fmt::format("{}\n  fauxboard check {}\n  {}\n", file, file,
+                      fmt::format(fmt::runtime(hit->next), file)));
     return ExitCode::ok;
 }
 
@@ -142,7 +145,7 @@ void add_new(CLI::App& app, ExitCode& exit) {
     const auto name = std::make_shared<std::string>();
     command->add_option("kind", *kind, "profile, screen or scenario")
         ->required()
-        ->check(CLI::IsMember({"profile", "screen", "scenario"}));
+        ->check(one_of({"profile", "screen", "scenario"}));
     command->add_option("name", *name, "What it is called")->required()->check(wrong_name);
     command->callback([kind, name, &exit] { exit = create(*kind, *name); });
 }

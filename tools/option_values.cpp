@@ -1,9 +1,15 @@
 #include "tools/option_values.h"
 
+#include <fmt/format.h>
+
 #include <CLI/Error.hpp>
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
+#include <algorithm>
 #include <charconv>
+#include <utility>
+
+#include "emulator/behaviour/nearest.h"
 
 #include "emulator/link/host_port.h"
 #include "emulator/link/link.h"
@@ -71,6 +77,19 @@ void add_seed(CLI::App& command, std::uint64_t& seed, const std::string& help) {
             },
             help + " (default: " + std::to_string(seed) + ")")
         ->type_name("N");
+}
+
+CLI::Validator one_of(std::vector<std::string> names) {
+    return {[names = std::move(names)](const std::string& text) {
+                if (std::find(names.begin(), names.end(), text) != names.end()) {
+                    return std::string();
+                }
+                const std::vector<std::string_view> known(names.begin(), names.end());
+                const std::string_view nearest = behaviour::nearest(text, known);
+                return fmt::format("found '{}'; expected {}{}", text, fmt::join(known, " or "),
+                                   nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest));
+            },
+            "", ""};
 }
 
 std::string wrong_address(const std::string& text) {

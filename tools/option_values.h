@@ -3,8 +3,10 @@
 // Options that several commands have, declared once: what they take and what is said of a wrong value.
 
 #include <CLI/App.hpp>
+#include <CLI/Validators.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "emulator/host/time_text.h"
 #include "emulator/machine/sim_time.h"
@@ -25,6 +27,9 @@ void add_seed(CLI::App& command, std::uint64_t& seed, const std::string& help);
 
 /// What is wrong with HOST:PORT, before anybody tries to open it; empty for nothing.
 std::string wrong_address(const std::string& text);
+
+/// A value that is one of a few: what is wrong with another, and the nearest.
+CLI::Validator one_of(std::vector<std::string> names);
 
 /// --baud: 50 to 4 million bits per second.
 CLI::Option* add_baud(CLI::App& command, unsigned& baud, const std::string& help);

@@ -16,6 +16,8 @@ class Progress {
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
+    /// Whether say() would say anything now.
+    bool due() const { return Clock::now() >= due_; }
     /// Called as often as one likes.
     void say(std::string_view text);
     /// Takes the terminal's line away, before something else is said.

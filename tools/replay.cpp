@@ -17,6 +17,7 @@
 #include "emulator/record/plot.h"
 #include "tools/batch.h"
 #include "tools/option_values.h"
+#include "tools/progress.h"
 #include "tools/report.h"
 
 namespace fauxboard::tools {
@@ -71,10 +72,18 @@ ExitCode play(const ReplayArguments& arguments, const std::shared_ptr<const beha
     Batch out;
     record::ReplayTalk talk;
     talk.first_board_line = first_board_line(arguments.capture);
-    talk.next = [&] { return recording.next(); };
+    Progress progress;
+    talk.next = [&] {
+        auto line = recording.next();
+        if (line && progress.due()) {
+            progress.say(fmt::format("replay: {:.0f} s of the recording", machine::to_seconds(line->t)));
+        }
+        return line;
+    };
     talk.on_line = [&](const record::RecordedLine& line) { out.add(record::recording_line(line)); };
     talk.on_notice = print_notice;
     record::replay(profile, talk, options);
+    progress.clear();
     return ExitCode::ok;
 }
 

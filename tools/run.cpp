@@ -12,12 +12,14 @@
 #include <system_error>
 #include <vector>
 
+#include "emulator/behaviour/own_words.h"
 #include "emulator/fault/printer_fault.h"
 #include "emulator/host/json_log.h"
 #include "emulator/host/line_faults.h"
 #include "emulator/host/line_log.h"
 #include "emulator/host/profile_files.h"
 #include "emulator/host/profile_watch.h"
+#include "emulator/host/program_log.h"
 #include "emulator/host/recorder.h"
 #include "emulator/host/script_host.h"
 #include "emulator/link/host_error.h"
@@ -26,6 +28,7 @@
 #include "tools/board_unit.h"
 #include "tools/commands.h"
 #include "tools/profile_changes.h"
+#include "tools/progress.h"
 #include "tools/ready_line.h"
 #include "tools/report.h"
 #include "tools/run_options.h"
@@ -36,6 +39,21 @@ namespace {
 
 /// What a person can still follow, per second. A real line has some twenty at most.
 constexpr double log_lines_per_second = 100;
+
+constexpr std::chrono::milliseconds progress_pause{200};
+
+/// What the profile says of a line; that it knows it, where it has rules for what no table has.
+std::string own_words(const behaviour::Profile& profile, board::Channel channel,
+                      const protocol::DecodedLine& line) {
+    std::string words = behaviour::own_words(profile, line);
+    if (words.empty() && line.code == nullptr && line.direction == protocol::Direction::to_board) {
+        const auto command = protocol::parse_command(line.code_text);
+        if (command && profile.rules_for(channel, *command) != nullptr) {
+            words = line.code_text + ": the profile's own";
+        }
+    }
+    return words;
+}
 
 /// Everything that one run needs, in the order in which it must come and (backwards) go.
 class Run {
@@ -61,12 +79,15 @@ class Run {
         return speed.max ? 0 : log_lines_per_second / speed.factor;
     }
     void set_up();
+    void open_log();
     void open_script();
     ExitCode outcome();
     void say_ready();
     void watch_profile();
     void reload();
     void on_signal(int number);
+    bool is_long_work() const;
+    void show_progress();
 
     const RunOptions& options_;
     std::shared_ptr<const script::Scenario> scenario_;
@@ -75,6 +96,8 @@ class Run {
     host::TextOutput err_;
     host::LineLog log_;
     host::JsonLog json_;
+    std::optional<host::LogFile> log_file_;
+    std::optional<host::ProgramLog> program_log_;
     host::Observers observers_;
     std::optional<host::Recorder> recorder_;
     BoardUnit unit_;
@@ -83,16 +106,20 @@ class Run {
     ReadyLine ready_{loop_, out_};
     link::Signals signals_;
     host::ProfileWatch watch_;
+    link::Timer progress_timer_{loop_, [this] { show_progress(); }};
+    Progress progress_;
     ProfileChanges changes_{options_.profile};
 };
 
 void Run::set_up() {
     log_.call_peer(unit_.profile()->line.peer);
-    log_.ask([this](board::Channel channel, std::string_view code) {
-        const auto command = protocol::parse_command(code);
-        return command && unit_.profile()->rules_for(channel, *command) != nullptr;
-    });
+    const auto own = [this](board::Channel channel, const protocol::DecodedLine& line) {
+        return own_words(*unit_.profile(), channel, line);
+    };
+    log_.ask(own);
+    json_.ask(own);
     observers_.add(log_);
+    open_log();
     if (!options_.record.empty()) {
         recorder_.emplace(options_.record, [this](machine::SimTime, std::string_view text) {
             unit_.say(board::Level::error, text);
@@ -102,6 +129,24 @@ void Run::set_up() {
     unit_.set_up();
     if (!options_.control.empty() || options_.web) {
         unit_.open_target([this] { loop_.stop(); });
+    }
+}
+
+/// Of the program's own doings. Where it is off nothing is told to it.
+void Run::open_log() {
+    const LogOptions& wanted = options_.log;
+    if (wanted.file.empty() && wanted.level) {
+        log_.tell_own(*wanted.level);
+    }
+    if (!wanted.wanted()) {
+        return;
+    }
+    log_file_.emplace(wanted.for_file(),
+                      [this](std::string_view text) { unit_.say(board::Level::error, text); });
+    observers_.add(
+        program_log_.emplace(*log_file_, host::ProgramLog::Style{wanted.file_level(), wanted.json, ""}));
+    for (const std::string& words : first_words(options_, *unit_.profile())) {
+        program_log_->say(machine::SimTime{0}, host::LogLevel::info, "program", words);
     }
 }
 
@@ -188,6 +233,25 @@ void Run::on_signal(int number) {
     loop_.stop();
 }
 
+/// It comes to an end by itself, and nothing else tells how far it is.
+bool Run::is_long_work() const {
+    const bool silent = options_.json || options_.detail == host::Detail::quiet;
+    return silent && (script_ || options_.duration != machine::never);
+}
+
+void Run::show_progress() {
+    const double now = machine::to_seconds(unit_.live().now());
+    std::string text = fmt::format("{:.0f} s of the board's time", now);
+    if (options_.duration != machine::never) {
+        text += fmt::format(", {:.0f} %", 100 * now / machine::to_seconds(options_.duration));
+    }
+    if (const machine::Job& job = unit_.board().machine().job; job.active()) {
+        text += fmt::format("; print {} %", job.progress_percent());
+    }
+    progress_.say(text);
+    progress_timer_.after(progress_pause);
+}
+
 ExitCode Run::operator()() {
     set_up();
     open_script();
@@ -210,14 +274,26 @@ ExitCode Run::operator()() {
     if (script_) {
         script_->start();
     }
+    if (is_long_work()) {
+        progress_timer_.after(progress_pause);
+    }
     unit_.clock().run();
+    progress_timer_.cancel();
+    progress_.clear();
     if (unit_.target() != nullptr) {
         unit_.target()->on_end();
     }
     panel_.reset();
     unit_.close();
     log_.finish(unit_.live().now());
-    err_.write(unit_.summary());
+    const std::string summary = unit_.summary();
+    err_.write(summary);
+    if (program_log_) {
+        for (std::size_t at = 0, end = 0; (end = summary.find('\n', at)) != std::string::npos; at = end + 1) {
+            program_log_->say(unit_.live().now(), host::LogLevel::info, "program",
+                              std::string_view(summary).substr(at, end - at));
+        }
+    }
     return outcome();
 }
 

@@ -131,6 +131,7 @@ void declare_talk(CLI::App& command, RunOptions& options) {
             "-q,--quiet", [&options] { options.detail = host::Detail::quiet; },
             "Log warnings and errors only")
         ->excludes(verbose);
+    add_log(command, options.log);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "emulator/host/line_log.h"
 #include "emulator/host/time_text.h"
 #include "emulator/machine/sim_time.h"
+#include "tools/log_options.h"
 
 namespace fauxboard::tools {
 
@@ -56,6 +57,7 @@ struct RunOptions {
     bool json = false;
     bool reload = true;
     host::Detail detail = host::Detail::normal;
+    LogOptions log;
 };
 
 /// Declares the options of `run`, which are kept in `options`; its pointer must live as long as `command`.

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "emulator/host/clock.h"
@@ -33,9 +34,13 @@ struct SendOptions {
     unsigned baud = 115200;
     bool bare = false;
     bool json = false;
+    bool all = false;  ///< show what was said before, too
     unsigned wait_ms = 500;
     std::vector<std::string> commands;
 };
+
+/// What a pseudo-terminal kept for whoever comes is there at once.
+constexpr SimTime settle = std::chrono::milliseconds(60);
 
 /// A line that talks all the time (a printing board's) is quiet never: so many quiet times are enough.
 constexpr int patience = 10;
@@ -86,7 +91,9 @@ class Talk final : public link::LinkListener {
         link_ = &link;
         clock_->start();
         link.open(*this);
-        next();
+        quiet_until_ = clock_->now() + settle;
+        limit_ = quiet_until_;
+        alarm_->at(quiet_until_);
         clock_->run();
         link.close();
         return result_;
@@ -94,6 +101,10 @@ class Talk final : public link::LinkListener {
 
     void on_bytes(std::string_view bytes) override {
         splitter_.feed(bytes, [this](std::string_view line) {
+            if (!begun_ && !options_.all) {
+                ++before_;
+                return;
+            }
             log_->on_sent(clock_->now(), board::Channel::main, line);
             answered_ = true;
         });
@@ -135,8 +146,21 @@ class Talk final : public link::LinkListener {
             alarm_->at(quiet_until_);
             return;
         }
+        if (!std::exchange(begun_, true)) {
+            return begin();
+        }
         judge(options_.commands[at_]);
         ++at_;
+        next();
+    }
+
+    /// What was said to nobody in particular, at power-on say, is no answer.
+    void begin() {
+        if (before_ != 0 && !options_.json) {
+            log_->on_notice(clock_->now(), board::Level::info,
+                            fmt::format("{} line{} that had been said before left out; --all shows them",
+                                        before_, before_ == 1 ? "" : "s"));
+        }
         next();
     }
 
@@ -158,6 +182,8 @@ class Talk final : public link::LinkListener {
     protocol::LineSplitter splitter_;
     link::Link* link_ = nullptr;
     std::size_t at_ = 0;
+    std::size_t before_ = 0;  ///< lines that came before the first command
+    bool begun_ = false;
     bool answered_ = false;
     SimTime quiet_until_{0};
     SimTime limit_{0};
@@ -205,6 +231,7 @@ void add_send(CLI::App& app, ExitCode& exit) {
     command->add_option("--wait", options->wait_ms, "Quiet time that ends an answer, in ms (500)")
         ->type_name("MS")
         ->check(CLI::Range(1U, 3'600'000U));
+    command->add_flag("--all", options->all, "Show what had been said before the first command, too");
     command->add_flag("--json", options->json, "The talk as JSON lines");
     command->add_option("COMMAND", options->commands, "'M104 S200': framed unless it is already")
         ->required()

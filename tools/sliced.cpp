@@ -15,6 +15,7 @@
 #include "emulator/link/host_error.h"
 #include "emulator/sliced/scanlines.h"
 #include "tools/file_source.h"
+#include "tools/option_values.h"
 #include "tools/png_file.h"
 #include "tools/report.h"
 #include "tools/sliced_text.h"
@@ -159,7 +160,7 @@ void add_sliced(CLI::App& app, ExitCode& exit) {
             ->type_name("N");
     command->add_option("--preview", options->preview, "This preview's picture")
         ->type_name("large|small")
-        ->check(CLI::IsMember({"large", "small"}))
+        ->check(one_of({"large", "small"}))
         ->excludes(layer);
     command->add_option("--png", options->png, "Where the picture goes")->type_name("OUT");
     command->callback([options, &exit] { exit = sliced(*options); });

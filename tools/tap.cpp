@@ -35,6 +35,7 @@ using host::TapSide;
 using machine::SimTime;
 
 constexpr SimTime report_period{10'000'000};
+constexpr int most_ends = 8;  // that are told when there are too many
 
 struct TapOptions {
     std::vector<std::string> ends;
@@ -142,6 +143,8 @@ void TapRun::add_faults() {
     for (const std::string& spec : options_.faults) {
         only_line.add(fault::fault_from_text(spec));
     }
+    faulty_->on_deed(
+        [this](const fault::Deed& deed) { lines_.on_deed(clock_->now(), board::Channel::main, deed); });
 }
 
 nlohmann::ordered_json TapRun::ready_end(TapSide side) const {
@@ -222,6 +225,14 @@ void TapRun::operator()() {
 }
 
 ExitCode tap(const TapOptions& options) {
+    if (options.ends.size() != 2) {
+        return complain(
+            "tap", ExitCode::usage,
+            fmt::format("found {}; expected two ends, A and B, to listen in between: `fauxboard tap "
+                        "/dev/ttyUSB0 pty=screen`, or a device, auto, tcp:HOST:PORT, "
+                        "tcp-listen:HOST:PORT",
+                        options.ends.empty() ? "none" : fmt::format("{}", fmt::join(options.ends, " "))));
+    }
     try {
         TapRun{options}();
         return ExitCode::ok;
@@ -240,15 +251,14 @@ void declare(CLI::App& command, TapOptions& options) {
                     "Two ends, A and B: a device, auto, pty, pty=LINK, tcp:HOST:PORT (connects) or "
                     "tcp-listen:HOST:PORT")
         ->type_name("A B")
-        ->required()
-        ->expected(2);
+        ->expected(0, most_ends);
     add_baud(command, options.baud, "Bits per second of serial ports")->capture_default_str();
     command
         .add_option_function<std::string>(
             "--board",
             [&options](const std::string& text) { options.board = text == "A" ? TapSide::a : TapSide::b; },
             "Which end is the board (default: as is seen by what is said, else B)")
-        ->check(CLI::IsMember({"A", "B"}));
+        ->check(one_of({"A", "B"}));
     command.add_option("--record", options.record, "Write every line to a recording")->type_name("FILE");
     command.add_option("--pcapng", options.pcapng, "Write a capture for Wireshark")->type_name("FILE");
     command

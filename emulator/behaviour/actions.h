@@ -40,6 +40,8 @@ struct ArgInfo {
     std::string_view help;
     std::string_view unit = {};         ///< of a number; a scenario writes it behind the value
     const KnownNames* known = nullptr;  ///< of a text: what it must be one of, where a profile is loaded
+    double min = 1;                     ///< of a number: what is refused below it, and above `max`
+    double max = 0;                     ///< less than `min`: nothing is refused
 };
 
 /// Something a profile, a scenario or a person can do to the machine. One row here is the whole declaration:

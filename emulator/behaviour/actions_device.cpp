@@ -65,7 +65,7 @@ void board_stall(ActionContext& c, Args a) {
     c.machine.loop.stall(machine::from_seconds((least + (most - least) * c.machine.random()) / 1000));
 }
 
-constexpr std::array disk_args{ArgInfo{"disk", number, true, "0 SD card, 1 U-disk"}};
+constexpr std::array disk_args{ArgInfo{"disk", number, true, "0 SD card, 1 U-disk", {}, nullptr, 0, 1}};
 constexpr std::array folder_args{
     ArgInfo{"name", text, true, "folder, as M20 file: names it; an empty one is the root"}};
 constexpr std::array file_args{

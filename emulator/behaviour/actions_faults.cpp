@@ -75,6 +75,9 @@ void fault_set(ActionContext& c, Args a) {
     if (a[3].is_number()) {
         request.length = machine::from_seconds(std::clamp(a[3].number, 1e-6, 1e9));
     }
+    if (a[4].is_number()) {
+        request.begin = c.machine.now() + machine::from_seconds(std::clamp(a[4].number, 0.0, 1e9));
+    }
     if (c.machine.faults.add(c.machine.now(), request) == 0) {
         refuse(c, c.machine.faults.refusal(*info));
     }
@@ -88,12 +91,23 @@ void fault_clear(ActionContext& c, Args a) {
     }
 }
 
+std::optional<std::vector<std::string_view>> fault_names(const machine::MachineConfig&) {
+    std::vector<std::string_view> names;
+    for (const FaultInfo* each : machine::fault_rows()) {
+        names.push_back(each->name);
+    }
+    return names;
+}
+constexpr KnownNames known_faults{"fault of the printer", fault_names};
+
 constexpr std::array set_args{
-    ArgInfo{"fault", text, true, "its name, of `describe faults`"},
+    ArgInfo{"fault", text, true, "its name, of `describe faults`", {}, &known_faults},
     ArgInfo{"part", text, false, "which heater, axis or disk; the first if left out"},
     ArgInfo{"value", number, false, "its number: percent, or C"},
-    ArgInfo{"for_s", number, false, "ends after so many seconds; else when it is cleared"}};
-constexpr std::array clear_args{ArgInfo{"fault", text, false, "its name; all if left out"}};
+    ArgInfo{"for_s", number, false, "ends after so many seconds; else when it is cleared"},
+    ArgInfo{"after_s", number, false, "begins after so many seconds; else at once"}};
+constexpr std::array clear_args{
+    ArgInfo{"fault", text, false, "its name; all if left out", {}, &known_faults}};
 
 constexpr std::array table{
     ActionInfo{"fault.set", "", "breaks the printer: one of the printer's faults begins", set_args,

@@ -24,7 +24,10 @@ struct Field {
     std::string_view help;
     Value (*get)(const machine::Machine&);         ///< nothing on a machine of another kind
     void (*set)(machine::Machine&, const Value&);  ///< null: read only
-    bool secret = false;  ///< left out of what is made to be shared
+    bool secret = false;                           ///< left out of what is made to be shared
+
+    /// Whether its value is always from `min` to `max`: what can be set is, what is measured need not be.
+    bool is_bounded() const { return set != nullptr && type != FieldType::text && min < max; }
 };
 
 /// Every field in the order of the reference: those of all machines, then each kind's. Paths are unique.

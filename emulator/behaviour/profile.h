@@ -109,6 +109,12 @@ struct Schedule {
     }
 };
 
+/// What a profile calls a code or a line of its own, and its fields by their keys.
+struct CodeWords {
+    std::string title;
+    std::map<std::string, std::string, std::less<>> fields;
+};
+
 /// Rules by code: what every request is looked up in.
 class CodeTable {
   public:
@@ -154,6 +160,8 @@ class Profile {
     std::string title;
     std::string screen;              ///< name of the screen that is part of the board; empty: it has none
     std::vector<std::string> files;  ///< what it was read from, base first
+    /// For logs, by how a line begins: "M2999", "L18 P26 S3". See own_words.h.
+    std::map<std::string, CodeWords, std::less<>> words;
     LineConfig line;
     SimTime tick{50'000};
     SimTime first_tick{0};  ///< from power-on

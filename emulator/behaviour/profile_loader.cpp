@@ -27,6 +27,7 @@ class Loader {
 
   private:
     void load_head(ObjectReader& root);
+    void load_words(const Json& node, const std::string& pointer);
     void load_variables(const Json& node, const std::string& pointer);
     void name_frames(const Json& node, const std::string& pointer);
     void load_schedule(const Json& node, const std::string& pointer);
@@ -65,6 +66,40 @@ void Loader::load_head(ObjectReader& root) {
     style_ = framed ? protocol::FrameStyle::framed : protocol::FrameStyle::bare;
     if (const Json* transmit = root.get("transmit")) {
         load_transmit(*transmit, root.pointer("transmit"), findings_, *profile_);
+    }
+}
+
+/// {"M2999": "blow", "L30": {"title": "air", "fields": {"V": "VOC, ppm"}}}
+void Loader::load_words(const Json& node, const std::string& pointer) {
+    constexpr std::size_t longest = 64;
+    if (!node.is_object()) {
+        findings_.add(pointer, found(node) + "; expected an object of codes and their words");
+        return;
+    }
+    ObjectReader all(node, pointer, findings_);
+    for (const auto& [key, value] : node.items()) {
+        CodeWords words;
+        const std::string at = all.pointer(key);
+        if (key.empty() || key.size() > longest || key.front() == ' ' || key.back() == ' ') {
+            findings_.add(
+                at,
+                "expected the beginning of a line: a code, perhaps with parameters, of up to 64 characters");
+        }
+        if (value.is_string()) {
+            all.text(key, words.title, longest);
+        } else {
+            ObjectReader one(value, at, findings_);
+            one.required("title");
+            one.text("title", words.title, longest);
+            if (const Json* fields = one.get("fields")) {
+                ObjectReader names(*fields, one.pointer("fields"), findings_);
+                for (const auto& [letter, name] : fields->items()) {
+                    names.text(letter, words.fields[letter], longest);
+                }
+            }
+            one.finish();
+        }
+        profile_->words.emplace(key, std::move(words));
     }
 }
 
@@ -266,6 +301,7 @@ std::shared_ptr<const Profile> Loader::load() {
     machine_ = machine.config;
     section("identity",
             [&](const Json& n, const std::string& p) { load_identity(n, p, findings_, machine_->identity); });
+    section("words", [&](const Json& n, const std::string& p) { load_words(n, p); });
     section("variables", [&](const Json& n, const std::string& p) { load_variables(n, p); });
     request_names_ = names_;
     request_names_.request = true;

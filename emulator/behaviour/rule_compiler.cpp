@@ -9,6 +9,9 @@
 namespace fauxboard::behaviour {
 namespace {
 
+constexpr std::size_t most_listed = 6;     // names that a message has room for
+constexpr std::size_t most_compared = 64;  // rules of a code, each with those before it: no list takes long
+
 std::string below(const std::string& pointer, std::string_view key) {
     std::string out = pointer + "/";
     for (const char c : key) {
@@ -101,7 +104,23 @@ void RuleCompiler::condition(const std::string& left, const Json& node, const st
                       found(node) + "; \"" + left + "\" is a " + (base.left.is_text() ? "text" : "number"));
         return;
     }
+    check_reach(base.left, base.right[0], base.right[0], pointer);
     out.push_back(std::move(base));
+}
+
+/// A setting that is never so high, or never so low. What is measured has no bounds.
+void RuleCompiler::check_reach(const Operand& left, const Operand& min, const Operand& max,
+                               const std::string& pointer) {
+    if (left.kind != Operand::Kind::field || !left.field->is_bounded()) {
+        return;
+    }
+    const Field& field = *left.field;
+    const bool below = max.kind == Operand::Kind::number && max.number < field.min;
+    if (below || (min.kind == Operand::Kind::number && min.number > field.max)) {
+        findings_.add(pointer,
+                      fmt::format("found {}; {} is from {} to {}: this never holds",
+                                  below ? max.number : min.number, field.path, field.min, field.max));
+    }
 }
 
 void RuleCompiler::condition_tests(const Condition& base, const Json& node, const std::string& pointer,
@@ -123,6 +142,8 @@ void RuleCompiler::condition_tests(const Condition& base, const Json& node, cons
         if (min.kind != Operand::Kind::none && max.kind != Operand::Kind::none && min.number > max.number) {
             findings_.add(pointer,
                           fmt::format("min {} is above max {}: this never holds", min.number, max.number));
+        } else {
+            check_reach(base.left, min, max, pointer);
         }
         out.push_back(std::move(c));
     }
@@ -148,6 +169,9 @@ void RuleCompiler::condition_tests(const Condition& base, const Json& node, cons
             c.right.emplace_back();
             literal(item, at, c.right.back());
         });
+        if (c.right.empty()) {
+            findings_.add(reader.pointer("in"), "found an empty list: this never holds");
+        }
         out.push_back(std::move(c));
     }
     if (reader.has("starts_with")) {
@@ -207,11 +231,6 @@ void RuleCompiler::call(const std::string& name, const Json* args, const std::st
         }
     }
     reader.finish();
-    for (std::size_t i = 0; i < info->args.size(); ++i) {
-        if (info->args[i].known != nullptr) {
-            check_name(*info->args[i].known, compiled.args[i], pointer);
-        }
-    }
     out.push_back(std::move(compiled));
 }
 
@@ -220,6 +239,12 @@ void RuleCompiler::argument(const ArgInfo& info, const Json& node, const std::st
     if (out.kind != Operand::Kind::none && out.is_text() != (info.type == ArgType::text)) {
         findings_.add(pointer,
                       found(node) + "; expected a " + (info.type == ArgType::text ? "text" : "number"));
+    } else if (info.known != nullptr) {
+        check_name(*info.known, out, pointer);
+    } else if (out.kind == Operand::Kind::number && info.min <= info.max &&
+               (out.number < info.min || out.number > info.max)) {
+        findings_.add(pointer, fmt::format("found {}; expected {}, from {} to {}", out.number, info.help,
+                                           info.min, info.max));
     }
 }
 
@@ -229,8 +254,11 @@ void RuleCompiler::check_name(const KnownNames& known, const Operand& given, con
     }
     const auto names = known.of(machine_);
     if (names && std::find(names->begin(), names->end(), given.text) == names->end()) {
-        findings_.add(pointer, "unknown " + std::string(known.what) + " \"" + given.text + '"',
-                      std::string(nearest(given.text, *names)));
+        std::string message = fmt::format("unknown {} \"{}\"", known.what, given.text);
+        if (names->size() <= most_listed) {
+            message += fmt::format("; expected {}", fmt::join(*names, " or "));
+        }
+        findings_.add(pointer, message, std::string(nearest(given.text, *names)));
     }
 }
 
@@ -335,16 +363,36 @@ Rule RuleCompiler::rule(const Json& node, const std::string& pointer) {
     return out;
 }
 
+namespace {
+
+/// Whether all that `less` asks for is asked for by `more`, too.
+bool asks_less(const Json& less, const Json& more) {
+    return std::all_of(less.items().begin(), less.items().end(), [&](const auto& item) {
+        const auto hit = more.is_object() ? more.find(item.key()) : more.end();
+        return hit != more.end() && *hit == item.value();
+    });
+}
+
+}  // namespace
+
 std::vector<Rule> RuleCompiler::rules(const Json& node, const std::string& pointer) {
     std::vector<Rule> out;
-    bool always = false;  // the one before needs nothing: the first that holds is the one that is carried out
+    std::vector<std::pair<const Json*, std::string>> before;  // what they ask for, and where they stand
     each(node, pointer, [&](const Json& item, const std::string& at) {
-        if (always) {
-            findings_.add(at, "this rule is never reached: the one before it holds always");
+        static const Json nothing = Json::object();
+        const Json* when = item.is_object() && item.contains("when") ? &item.at("when") : &nothing;
+        // The first that holds is the one that is carried out.
+        const auto hides = std::find_if(before.begin(), before.end(), [&](const auto& earlier) {
+            return asks_less(*earlier.first, *when);
+        });
+        if (hides != before.end()) {
+            findings_.add(at, fmt::format("this rule is never reached: {} holds {}", hides->second,
+                                          hides->first->empty() ? "always" : "whenever this one does"));
         }
         out.push_back(rule(item, at));
-        const auto when = item.is_object() ? item.find("when") : item.end();
-        always = item.is_object() && (when == item.end() || when->empty());
+        if (item.is_object() && when->is_object() && before.size() < most_compared) {
+            before.emplace_back(when, at);
+        }
     });
     return out;
 }

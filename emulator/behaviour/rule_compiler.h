@@ -39,6 +39,7 @@ class RuleCompiler {
     void call(const std::string& name, const Json* args, const std::string& pointer,
               std::vector<ActionCall>& out);
     void argument(const ArgInfo& info, const Json& node, const std::string& pointer, Operand& out);
+    void check_reach(const Operand& left, const Operand& min, const Operand& max, const std::string& pointer);
     void check_name(const KnownNames& known, const Operand& given, const std::string& pointer);
     Operand reference(std::string_view text, const std::string& pointer);
     Operand value(const Json& node, const std::string& pointer);

@@ -138,7 +138,9 @@ class Board final : private behaviour::NoticeSink, private machine::FileCommands
     /// notice; empty when it was done.
     std::string act(SimTime now, const behaviour::ActionCall& call);
     /// Calls `use` with the machine brought up to now, and sees to what comes of it.
-    void tinker(SimTime now, const std::function<void(machine::Machine& machine)>& use);
+    /// `words`, if any, are told as what was done by hand, see Observer::on_world().
+    void tinker(SimTime now, const std::function<void(machine::Machine& machine)>& use,
+                std::string_view words = {});
     /// Sends one of the profile's frames, as a rule does; it has no request to take parameters from.
     void send_frame(SimTime now, const behaviour::Send& entry);
     /// Puts bytes on the wire to the screen, at once and as they are but for the line end, which is added

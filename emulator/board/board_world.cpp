@@ -55,9 +55,13 @@ std::string Board::act(SimTime now, const behaviour::ActionCall& call) {
     return watch.refusal;
 }
 
-void Board::tinker(SimTime now, const std::function<void(machine::Machine& machine)>& use) {
+void Board::tinker(SimTime now, const std::function<void(machine::Machine& machine)>& use,
+                   std::string_view words) {
     catch_up(now);
     machine_->advance(time_);
+    if (!words.empty() && options_.observer != nullptr) {
+        options_.observer->on_world(time_, words);
+    }
     use(*machine_);
     machine_->advance(time_);
     settle();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "emulator/behaviour/own_words.h"
 #include "emulator/behaviour/wire_text.h"
 #include "protocol/annotate.h"
 
@@ -149,7 +150,8 @@ void Hub::tell_line(SimTime now, std::string_view from, std::string_view line, p
         }
         if (session->subscriptions.words && with_words.is_null()) {
             with_words = bare;
-            with_words["words"] = protocol::explain(protocol::decode_line(line, direction));
+            with_words["words"] =
+                behaviour::explain(target_.board().profile(), protocol::decode_line(line, direction));
         }
         session->tell(session->subscriptions.words ? with_words : bare);
     }

@@ -58,6 +58,8 @@ struct Op {
     std::span<const Param> params;
     /// The members of the answer; nothing when it comes later (see Session::answer_at). Throws ControlError.
     std::optional<Json> (*run)(const Call& call);
+    /// It does something that nothing else tells of: whoever keeps a log wants to know of it.
+    bool acts = false;
 };
 
 /// All, in the order of the reference.

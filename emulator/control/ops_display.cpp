@@ -84,7 +84,7 @@ constexpr std::array table{
        {},
        page},
     Op{"touch", "puts a finger on that screen; answers when it is off again and what comes of it is done",
-       touch_params, touch},
+       touch_params, touch, true},
     Op{"screenshot", "that screen as a picture: \"png\" is a PNG file in base64", {}, screenshot},
 };
 

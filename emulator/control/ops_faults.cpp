@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -57,10 +58,12 @@ fault::FaultId fault_id(const Call& call) {
 
 Json add_to_printer(const Call& call, const fault::FaultSpec& spec) {
     unsigned number = 0;
-    call.board.tinker(call.now,
-                      [&](Machine& p) { number = p.faults.add(call.now, fault::to_request(spec)); });
+    const machine::FaultRequest request = fault::to_request(spec);
+    call.board.tinker(
+        call.now, [&](Machine& p) { number = p.faults.add(call.now, request); },
+        fault::world_words(request, call.now));
     if (number == 0) {
-        std::string why = call.board.machine().faults.refusal(*fault::to_request(spec).info);
+        std::string why = call.board.machine().faults.refusal(*request.info);
         why.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(why.front())));
         throw ControlError(ErrorCode::refused, why + ".");
     }
@@ -69,12 +72,21 @@ Json add_to_printer(const Call& call, const fault::FaultSpec& spec) {
 
 /// By id, or all of one kind by its name. False when there is none.
 bool remove_from_printer(const Call& call, const std::string& id) {
-    bool done = false;
-    call.board.tinker(call.now, [&](Machine& p) {
-        const machine::FaultInfo* info = machine::find_fault(id);
-        done =
-            info != nullptr ? p.faults.remove(*info) != 0 : p.faults.remove(fault::printer_fault_number(id));
+    const Faults& faults = call.board.machine().faults;
+    const machine::FaultInfo* const info = machine::find_fault(id);
+    const auto broken = faults.list();
+    const auto hit = std::find_if(broken.begin(), broken.end(), [&](const machine::Fault& each) {
+        return info != nullptr ? each.request.info == info : fault::printer_fault_id(each.number) == id;
     });
+    if (hit == broken.end()) {
+        return false;
+    }
+    const unsigned number = hit->number;
+    bool done = false;
+    call.board.tinker(
+        call.now,
+        [&](Machine& p) { done = info != nullptr ? p.faults.remove(*info) != 0 : p.faults.remove(number); },
+        fault::world_words_of_mending(faults, number));
     return done;
 }
 
@@ -118,7 +130,9 @@ Answer remove(const Call& call) {
 }
 
 Answer clear(const Call& call) {
-    call.board.tinker(call.now, [](Machine& p) { p.faults.clear(); });
+    call.board.tinker(
+        call.now, [](Machine& p) { p.faults.clear(); },
+        fault::world_words_of_mending(call.board.machine().faults));
     if (fault::FaultControl* all = call.target.faults()) {
         all->clear();
     }
@@ -154,12 +168,12 @@ constexpr std::array remove_params{gone_param};
 constexpr std::array table{
     Op{"faults.list", "the faults of line and printer, and what each has done or how it stands", {}, list},
     Op{"faults.add", "makes the tested line misbehave, or breaks the printer; answers with the fault's id",
-       add_params, add},
+       add_params, add, true},
     Op{"faults.change", "the fault of that id begins anew as another one; one of the printer's gets a new id",
-       change_params, change},
+       change_params, change, true},
     Op{"faults.remove", "takes one away; what it held back goes on, what it broke is mended", remove_params,
-       remove},
-    Op{"faults.clear", "takes all away", {}, clear},
+       remove, true},
+    Op{"faults.clear", "takes all away", {}, clear, true},
 };
 
 }  // namespace

@@ -235,16 +235,16 @@ constexpr std::array table{
        do_params, do_actions},
     Op{"world", "does something to the machine by its phrase", world_params, world},
     Op{"send", "sends something to the screen: a frame waits for its tick, line and raw leave at once",
-       send_params, send},
+       send_params, send, true},
     Op{"hold",
        "virtual time stands still but for advance and touch, for as long as this client is there and wants "
        "it",
-       hold_params, hold},
+       hold_params, hold, true},
     Op{"advance",
        "virtual time jumps forward, with everything that happens meanwhile; answers when it has got there, "
        "and "
        "this client's further requests wait for that",
-       advance_params, advance},
+       advance_params, advance, true},
 };
 
 }  // namespace

@@ -178,7 +178,7 @@ constexpr std::array table{
        subscribe_params, subscribe},
     Op{"unsubscribe", "no more of that", unsubscribe_params, unsubscribe},
     Op{"status", "profile, virtual time, link, counters, clients, faults", {}, status},
-    Op{"quit", "ends the run", {}, quit},
+    Op{"quit", "ends the run", {}, quit, true},
 };
 
 }  // namespace

@@ -8,9 +8,12 @@
 #include "emulator/behaviour/document.h"
 #include "emulator/control/hub.h"
 #include "emulator/control/ops.h"
+#include "protocol/secrets.h"
 
 namespace fauxboard::control {
 namespace {
+
+constexpr std::size_t most_told = 200;  // of a parameter, to a log
 
 behaviour::Document parse(std::string_view line) {
     try {
@@ -26,6 +29,20 @@ Json failure(Json answer, const ControlError& error) {
     answer["ok"] = false;
     answer["error"] = error_json(error);
     return answer;
+}
+
+/// "a client: advance by=10.0".
+std::string did(const Op& op, const Json& request) {
+    std::string text = fmt::format("a client: {}", op.name);
+    for (const Param& param : op.params) {
+        if (const auto value = request.find(param.name); value != request.end()) {
+            const std::string words = value->is_string()
+                                          ? value->get<std::string>()
+                                          : value->dump(-1, ' ', true, Json::error_handler_t::replace);
+            text += fmt::format(" {}={}", param.name, protocol::mask_secrets(words.substr(0, most_told)));
+        }
+    }
+    return text;
 }
 
 }  // namespace
@@ -110,6 +127,9 @@ Json Session::answer_to(std::string_view line, bool& later) {
         std::optional<Json> members;
         hub_.target().visit([&](board::Board& board, SimTime now) {
             members = op.run({*this, hub_, hub_.target(), board, now, document});
+            if (op.acts) {
+                hub_.target().tell(now, did(op, document.root));
+            }
         });
         later = !members.has_value();
         out["ok"] = true;

@@ -68,6 +68,8 @@ class Target {
         static View nothing;
         return nothing;
     }
+    /// For whoever keeps a log: what a client has just had done. Called from inside visit().
+    virtual void tell(SimTime /*now*/, std::string_view /*sentence*/) {}
     /// What shows the board to a person; null when nothing does.
     virtual Display* display() { return nullptr; }
 };

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <nlohmann/json.hpp>
@@ -73,6 +74,39 @@ FaultSpec to_spec(const machine::FaultRequest& request) {
 std::span<const Kind* const> printer_kinds() {
     static const Rows rows;
     return rows.pointers;
+}
+
+std::string world_words(const machine::FaultRequest& request, machine::SimTime now) {
+    nlohmann::ordered_json args{{"fault", request.info->name}};
+    const auto& parameters = request.info->parameters;
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+        if (parameters[i].unit == FaultUnit::choice) {
+            args["part"] = parameters[i].choices[static_cast<std::size_t>(request.values[i])];
+        } else {
+            args["value"] = request.values[i];
+        }
+    }
+    const machine::SimTime begin = std::max(request.begin.value_or(now), now);
+    const auto length = request.end ? std::optional(*request.end - begin) : request.length;
+    if (length) {
+        args["for_s"] = machine::to_seconds(*length);
+    }
+    if (begin > now) {
+        args["after_s"] = machine::to_seconds(begin - now);
+    }
+    return nlohmann::ordered_json{{"fault.set", args}}.dump();
+}
+
+std::string world_words_of_mending(const machine::Faults& faults, unsigned number) {
+    const auto list = faults.list();
+    const auto hit = std::find_if(list.begin(), list.end(), [&](const machine::Fault& each) {
+        return number == 0 || each.number == number;
+    });
+    if (hit == list.end()) {
+        return {};
+    }
+    return number == 0 ? "fault.clear"
+                       : nlohmann::ordered_json{{"fault.clear", {{"fault", hit->request.info->name}}}}.dump();
 }
 
 bool is_for_printer(const FaultSpec& spec) {

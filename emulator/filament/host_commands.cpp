@@ -116,7 +116,6 @@ void HostCommands::follow_transfer() {
     if (open != file.open) {
         file = {open, open && line_.letter == 'M' && line_.code == log_to_file, {}};
     }
-}};
 }
 
 bool HostCommands::write(std::string_view command, SimTime now) {

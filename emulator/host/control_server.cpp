@@ -15,6 +15,7 @@
 namespace fauxboard::host {
 namespace {
 
+using behaviour::Level;
 using control::Session;
 using link::UniqueFd;
 
@@ -65,7 +66,8 @@ class ControlServer::Client : public std::enable_shared_from_this<Client> {
         }
         session_->proceed();
         if (session_->dropped()) {
-            server_.say_("a client of the control channel does not read what it asked for; dropped");
+            server_.say_(Level::info,
+                         "a client of the control channel does not read what it asked for; dropped");
         } else if (!flush() || !session_->over() || !written()) {
             if (session_) {
                 watch_.hold(ended_ || !unread_.empty() || !session_->wants_input());
@@ -145,14 +147,13 @@ class ControlServer::Client : public std::enable_shared_from_this<Client> {
 // The server.
 // -----------------------------------------------------------------------------------------------
 
-ControlServer::ControlServer(link::EventLoop& loop, control::Hub& hub,
-                             std::function<void(std::string_view)> say)
+ControlServer::ControlServer(link::EventLoop& loop, control::Hub& hub, Say say)
     : loop_(loop),
       hub_(hub),
       say_(std::move(say)),
       listener_(
           loop, [this](UniqueFd socket) { take(std::move(socket)); },
-          [this](std::string_view text) { say_(text); }) {}
+          [this](std::string_view text) { say_(Level::warning, text); }) {}
 
 ControlServer::~ControlServer() {
     close();
@@ -177,8 +178,9 @@ void ControlServer::take(UniqueFd socket) {
     try {
         client->start();
         clients_.push_back(client);
+        tell_size("came to");
     } catch (const link::LinkError& error) {
-        say_(error.what());
+        say_(Level::warning, error.what());
     }
 }
 
@@ -220,6 +222,11 @@ void ControlServer::serve_next() {
 
 void ControlServer::leave(const Client& client) {
     std::erase_if(clients_, [&](const std::shared_ptr<Client>& each) { return each.get() == &client; });
+    tell_size("left");
+}
+
+void ControlServer::tell_size(std::string_view what) const {
+    say_(Level::debug, fmt::format("a client {} the control channel; clients: {}", what, clients_.size()));
 }
 
 }  // namespace fauxboard::host

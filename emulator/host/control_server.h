@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "emulator/behaviour/notice.h"
 #include "emulator/control/hub.h"
 #include "emulator/link/local_listener.h"
 
@@ -18,8 +19,9 @@ class ControlServer final {
   public:
     static constexpr std::size_t most_clients = 128;
 
+    using Say = std::function<void(behaviour::Level level, std::string_view sentence)>;
     /// `hub` and `loop` outlive this. `say`: what a person wants to know of the channel itself.
-    ControlServer(link::EventLoop& loop, control::Hub& hub, std::function<void(std::string_view)> say);
+    ControlServer(link::EventLoop& loop, control::Hub& hub, Say say);
     ~ControlServer();
     ControlServer(const ControlServer&) = delete;
     ControlServer& operator=(const ControlServer&) = delete;
@@ -35,6 +37,7 @@ class ControlServer final {
     void take(link::UniqueFd socket);
     void turn_away(const link::UniqueFd& socket) const;
     void leave(const Client& client);
+    void tell_size(std::string_view what) const;
     template <class Task>
     void post(Task task);
     void queue(const std::shared_ptr<Client>& client);
@@ -42,7 +45,7 @@ class ControlServer final {
 
     link::EventLoop& loop_;
     control::Hub& hub_;
-    std::function<void(std::string_view)> say_;
+    Say say_;
     std::vector<std::shared_ptr<Client>> clients_;
     /// Who has said something that was not looked at yet. One request is carried out on a turn of the loop,
     /// each client's in turn: a client that floods us slows down itself, neither the others nor the line.

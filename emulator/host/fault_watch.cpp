@@ -43,6 +43,9 @@ void FaultWatch::look() {
         }
     }
     looking_ = false;
+    if (wake_) {
+        wake_(board_.machine().faults.next_event());
+    }
 }
 
 }  // namespace fauxboard::host

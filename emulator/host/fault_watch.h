@@ -15,10 +15,12 @@ namespace fauxboard::host {
 class FaultWatch final : public LiveObserver {
   public:
     using Say = std::function<void(const std::string& sentence)>;
+    /// Asks for a look() at that time, with the board brought up to it; machine::never for none.
+    using Wake = std::function<void(SimTime when)>;
 
     /// Both outlive this. `say` may tell the very observers that this is one of.
-    FaultWatch(const board::Board& board, const fault::FaultControl& lines, Say say)
-        : board_(board), lines_(lines), say_(std::move(say)) {}
+    FaultWatch(const board::Board& board, const fault::FaultControl& lines, Say say, Wake wake = {})
+        : board_(board), lines_(lines), say_(std::move(say)), wake_(std::move(wake)) {}
 
     /// Says what has changed since the last look.
     void look();
@@ -39,6 +41,7 @@ class FaultWatch final : public LiveObserver {
     const board::Board& board_;
     const fault::FaultControl& lines_;
     Say say_;
+    Wake wake_;
     std::map<std::string, Known> known_;  ///< those in force, by id
     bool looking_ = false;
 };

@@ -16,12 +16,6 @@ std::string json_text(std::string_view text) {
     return nlohmann::json(text).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
 }
 
-std::string line_members(std::string_view from, std::string_view line, protocol::Direction direction) {
-    return fmt::format(R"("from": "{}", "line": {}, "words": {})", from,
-                       json_text(behaviour::from_wire(line)),
-                       json_text(protocol::explain(protocol::decode_line(line, direction))));
-}
-
 std::string_view refusal(board::Verdict verdict) {
     switch (verdict) {
         case board::Verdict::bad_frame:
@@ -36,6 +30,15 @@ std::string_view refusal(board::Verdict verdict) {
 
 }  // namespace
 
+std::string JsonLog::line_members(board::Channel channel, std::string_view from, std::string_view line,
+                                  protocol::Direction direction) const {
+    const protocol::DecodedLine decoded = protocol::decode_line(line, direction);
+    const std::string own = own_words_ ? own_words_(channel, decoded) : std::string();
+    return fmt::format(R"("from": "{}", "line": {}, "words": {})", from,
+                       json_text(behaviour::from_wire(line)),
+                       json_text(own.empty() ? protocol::explain(decoded) : own));
+}
+
 void JsonLog::write(SimTime now, std::string_view members) {
     const double t = machine::to_seconds(now);
     const std::uint64_t left_out = out_.left_out();
@@ -48,14 +51,14 @@ void JsonLog::write(SimTime now, std::string_view members) {
 
 void JsonLog::on_received(SimTime now, board::Channel channel, std::string_view line,
                           board::Verdict verdict) {
-    std::string members =
-        line_members(board::other_end(channel), protocol::mask_secrets(line), protocol::Direction::to_board);
+    std::string members = line_members(channel, board::other_end(channel), protocol::mask_secrets(line),
+                                       protocol::Direction::to_board);
     members += refusal(verdict);
     write(now, members);
 }
 
 void JsonLog::on_sent(SimTime now, board::Channel channel, std::string_view line) {
-    write(now, line_members(board::own_end(channel), line, protocol::Direction::to_screen));
+    write(now, line_members(channel, board::own_end(channel), line, protocol::Direction::to_screen));
 }
 
 void JsonLog::on_notice(SimTime now, board::Level level, std::string_view text) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 
+#include "emulator/host/line_log.h"
 #include "emulator/host/live_observer.h"
 #include "emulator/host/text_output.h"
 
@@ -22,6 +23,8 @@ namespace fauxboard::host {
 class JsonLog final : public LiveObserver {
   public:
     explicit JsonLog(TextOutput& out) : out_(out) {}
+    /// See LineLog::ask().
+    void ask(LineLog::OwnWords own_words) { own_words_ = std::move(own_words); }
 
     void on_received(SimTime now, board::Channel channel, std::string_view line,
                      board::Verdict verdict) override;
@@ -34,7 +37,11 @@ class JsonLog final : public LiveObserver {
   private:
     void write(SimTime now, std::string_view members);
 
+    std::string line_members(board::Channel channel, std::string_view from, std::string_view line,
+                             protocol::Direction direction) const;
+
     TextOutput& out_;
+    LineLog::OwnWords own_words_;
     std::uint64_t told_left_out_ = 0;
 };
 

@@ -1,6 +1,7 @@
 #include "emulator/host/line_log.h"
 
 #include "emulator/behaviour/wire_text.h"
+#include "emulator/fault/deed_text.h"
 
 #include <fmt/format.h>
 
@@ -30,11 +31,24 @@ std::string_view words_of(board::Verdict verdict) {
     return {};
 }
 
+LogLevel own_doings(Detail detail) {
+    switch (detail) {
+        case Detail::quiet:
+            return LogLevel::warning;
+        case Detail::verbose:
+            return LogLevel::debug;
+        case Detail::normal:
+            break;
+    }
+    return LogLevel::info;
+}
+
 }  // namespace
 
 LineLog::LineLog(TextOutput& out, Detail detail, double lines_per_second)
     : out_(out),
       detail_(detail),
+      least_(own_doings(detail)),
       colours_(out.colours()),
       rate_(detail == Detail::verbose ? 0 : lines_per_second),
       burst_(4 * rate_) {
@@ -107,16 +121,19 @@ std::string LineLog::fit(std::string_view text, std::size_t column) const {
     return std::string(text.substr(0, end - 1)) + "…";
 }
 
+std::string LineLog::words_of(board::Channel channel, const protocol::DecodedLine& line) const {
+    std::string own = own_words_ ? own_words_(channel, line) : std::string();
+    return own.empty() ? protocol::explain(line) : own;
+}
+
 void LineLog::on_received(SimTime now, board::Channel channel, std::string_view received,
                           board::Verdict verdict) {
     if (detail_ == Detail::quiet || !passes(now)) {
         return;
     }
     const std::string line = protocol::mask_secrets(received);
-    const protocol::DecodedLine decoded = protocol::decode_line(line, protocol::Direction::to_board);
-    const bool own = decoded.code == nullptr && knows_ && knows_(channel, decoded.code_text);
-    std::string words = own ? decoded.code_text + ": the profile's own" : protocol::explain(decoded);
-    words += words_of(verdict);
+    std::string words = words_of(channel, protocol::decode_line(line, protocol::Direction::to_board));
+    words += host::words_of(verdict);
     print(now, verdict == board::Verdict::accepted ? Ink::incoming : Ink::error,
           fmt::format("{} → board", other_end(channel)), behaviour::as_ascii(line), words);
 }
@@ -127,7 +144,7 @@ void LineLog::on_sent(SimTime now, board::Channel channel, std::string_view line
         // What a board says to people on its USB port is in no list.
         const bool known = channel == board::Channel::main || decoded.code != nullptr;
         print(now, Ink::outgoing, fmt::format("board → {}", other_end(channel)), behaviour::as_ascii(line),
-              known ? protocol::explain(decoded) : std::string());
+              known ? words_of(channel, decoded) : std::string());
     }
 }
 
@@ -141,37 +158,36 @@ void LineLog::on_notice(SimTime now, board::Level level, std::string_view text) 
                                               {"note", Ink::faint, talk},
                                               {"warning", Ink::warning, warnings},
                                               {"error", Ink::error, errors}}};
-    const board::Level least = detail_ == Detail::quiet    ? board::Level::warning
-                               : detail_ == Detail::normal ? board::Level::info
-                                                           : board::Level::debug;
     const Row& row = rows[static_cast<std::size_t>(level)];
-    if (level >= least && passes(now, row.kind)) {
+    if (log_level(level) >= least_ && passes(now, row.kind)) {
         print(now, row.ink, row.name, text, "");
     }
 }
 
+void LineLog::on_event(SimTime now, machine::EventId event) {
+    if (least_ == LogLevel::trace && passes(now)) {
+        print(now, Ink::faint, "event", event->name, "");
+    }
+}
+
 void LineLog::on_link(SimTime now, link::LinkState, std::string_view why) {
-    if (detail_ != Detail::quiet && passes(now)) {
+    if (least_ <= LogLevel::info && passes(now)) {
         print(now, Ink::warning, "link", why, "");
     }
 }
 
 void LineLog::on_world(SimTime now, std::string_view words) {
-    if (detail_ != Detail::quiet && passes(now)) {
+    if (least_ <= LogLevel::info && passes(now)) {
         print(now, Ink::faint, "done", words, "");
     }
 }
 
+/// Part of the talk as much as of what was done: a line is not what was said.
 void LineLog::on_deed(SimTime now, board::Channel channel, const fault::Deed& deed) {
-    if (detail_ == Detail::quiet || !passes(now)) {
-        return;
+    if ((detail_ != Detail::quiet || least_ <= LogLevel::debug) && passes(now)) {
+        print(now, Ink::error, fmt::format("fault {}", deed.fault),
+              fault::deed_text(deed, other_end(channel)), "");
     }
-    const std::string_view peer = other_end(channel);
-    const bool to_board = deed.direction == fault::Direction::to_board;
-    print(now, Ink::error, fmt::format("fault {}", deed.fault),
-          fmt::format("{} {} {}: {}", deed.kind, to_board ? "from" : "to", peer,
-                      behaviour::as_ascii(protocol::mask_secrets(deed.line))),
-          "");
 }
 
 }  // namespace fauxboard::host

@@ -7,8 +7,10 @@
 #include <utility>
 
 #include "emulator/host/live_observer.h"
+#include "emulator/host/log_level.h"
 #include "emulator/host/plain_text.h"
 #include "emulator/host/text_output.h"
+#include "protocol/annotate.h"
 
 namespace fauxboard::host {
 
@@ -29,10 +31,11 @@ class LineLog final : public LiveObserver {
   public:
     /// What the main line's other end is called from here on: "screen" until told.
     void call_peer(std::string_view name) { peer_ = name; }
-    /// Whether the board's profile has rules of its own for a request, by its code, that no table of the
-    /// protocol has.
-    using Knows = std::function<bool(board::Channel channel, std::string_view code)>;
-    void ask(Knows knows) { knows_ = std::move(knows); }
+    /// What the board's profile says of a line, where the tables of the protocol do not; empty: nothing.
+    using OwnWords = std::function<std::string(board::Channel channel, const protocol::DecodedLine& line)>;
+    void ask(OwnWords own_words) { own_words_ = std::move(own_words); }
+    /// What of the program's own doings is told: instead of what goes with the detail.
+    void tell_own(LogLevel least) { least_ = least; }
     /// `lines_per_second` (of virtual time) is what passes for long in Detail::normal; bursts of four times
     /// as many lines do, too. Zero: no limit. Warnings have a measure of their own, and errors another: no
     /// flood of lines keeps them from being said.
@@ -42,6 +45,7 @@ class LineLog final : public LiveObserver {
                      board::Verdict verdict) override;
     void on_sent(SimTime now, board::Channel channel, std::string_view line) override;
     void on_notice(SimTime now, board::Level level, std::string_view text) override;
+    void on_event(SimTime now, machine::EventId event) override;
     void on_link(SimTime now, link::LinkState state, std::string_view why) override;
     void on_world(SimTime now, std::string_view words) override;
     void on_deed(SimTime now, board::Channel channel, const fault::Deed& deed) override;
@@ -66,13 +70,15 @@ class LineLog final : public LiveObserver {
         return channel == board::Channel::main ? std::string_view(peer_) : board::other_end(channel);
     }
 
+    std::string words_of(board::Channel channel, const protocol::DecodedLine& line) const;
     /// What fits behind `column`.
     std::string fit(std::string_view text, std::size_t column) const;
 
     TextOutput& out_;
     Detail detail_;
+    LogLevel least_;
     std::string peer_ = "screen";
-    Knows knows_;
+    OwnWords own_words_;
     bool colours_;
     double rate_;
     double burst_;

@@ -17,6 +17,10 @@ class LiveObserver : public board::Observer {
     virtual void on_link(SimTime now, link::LinkState state, std::string_view why) = 0;
     /// A fault has acted on a line of that channel; see fault::Deed.
     virtual void on_deed(SimTime /*now*/, board::Channel /*channel*/, const fault::Deed& /*deed*/) {}
+    /// A fault has been put on a line or taken off it, or one of the printer begins or is over.
+    virtual void on_fault(SimTime now, std::string_view sentence) {
+        on_notice(now, board::Level::info, sentence);
+    }
 };
 
 /// Several observers as one, told in the order they were added.
@@ -57,6 +61,10 @@ class Observers final : public LiveObserver {
     void on_deed(SimTime now, board::Channel channel, const fault::Deed& deed) override {
         for (LiveObserver* each : all_)
             each->on_deed(now, channel, deed);
+    }
+    void on_fault(SimTime now, std::string_view sentence) override {
+        for (LiveObserver* each : all_)
+            each->on_fault(now, sentence);
     }
 
   private:

@@ -43,6 +43,8 @@ class LiveTarget final : public LiveObserver, private control::Target, private c
         /// The touch screen that looks on, null where none is known for the board.
         std::shared_ptr<const screen::ScreenProfile> screen;
         control::Display* display = nullptr;  ///< what shows the board; null: nothing does
+        /// What clients do that the board itself does not tell; may be empty.
+        std::function<void(SimTime now, std::string_view sentence)> tell;
     };
     /// All of it outlives this. Follows `live`, so make it before that is started; hand it to the observers.
     explicit LiveTarget(Parts parts);
@@ -84,6 +86,9 @@ class LiveTarget final : public LiveObserver, private control::Target, private c
     void quit() override { parts_.loop.post(parts_.quit); }
     fault::FaultControl* faults() override { return parts_.faults; }
     control::Display* display() override { return parts_.display; }
+    void tell(SimTime now, std::string_view sentence) override {
+        if (parts_.tell) parts_.tell(now, sentence);
+    }
     control::Json status() const override;
     void on_wanted() override;
     control::View& view() override { return *this; }

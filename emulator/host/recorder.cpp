@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "emulator/fault/deed_text.h"
 #include "emulator/record/recording.h"
 #include "protocol/secrets.h"
 
@@ -36,6 +37,14 @@ void Recorder::on_sent(SimTime now, board::Channel channel, std::string_view lin
 
 void Recorder::on_world(SimTime now, std::string_view words) {
     write(now, record::recording_line(now, from_name(record::RecordedLine::From::world), "do", words));
+}
+
+void Recorder::on_deed(SimTime now, board::Channel channel, const fault::Deed& deed) {
+    on_fault(now, fmt::format("fault {}: {}", deed.fault, fault::deed_text(deed, board::other_end(channel))));
+}
+
+void Recorder::on_fault(SimTime now, std::string_view sentence) {
+    write(now, record::recording_line({now, record::RecordedLine::From::fault, std::string(sentence)}));
 }
 
 void Recorder::on_datagram(SimTime now, std::uint64_t peer, bool to_board, std::string_view bytes) {

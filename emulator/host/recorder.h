@@ -9,8 +9,8 @@
 
 namespace fauxboard::host {
 
-/// Writes every line of the wire, every datagram, and what is done to the machine by hand, to a recording
-/// (see recording.h), each at once, so that a kill loses none.
+/// Writes every line of the wire, every datagram, what is done to the machine by hand, and what faults do, to
+/// a recording (see recording.h), each at once, so that a kill loses none.
 class Recorder final : public LiveObserver {
   public:
     /// Told once, when the recording had to end early: a full disk ends the recording, not the board.
@@ -25,6 +25,8 @@ class Recorder final : public LiveObserver {
     void on_datagram(SimTime now, std::uint64_t peer, bool to_board, std::string_view bytes) override;
     void on_notice(SimTime, board::Level, std::string_view) override {}
     void on_world(SimTime now, std::string_view words) override;
+    void on_deed(SimTime now, board::Channel channel, const fault::Deed& deed) override;
+    void on_fault(SimTime now, std::string_view sentence) override;
     void on_link(SimTime, link::LinkState, std::string_view) override {}
 
     std::uint64_t lines() const { return out_.pieces(); }

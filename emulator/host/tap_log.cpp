@@ -5,6 +5,7 @@
 #include <string>
 
 #include "emulator/behaviour/wire_text.h"
+#include "emulator/fault/deed_text.h"
 #include "emulator/record/transcript.h"
 #include "protocol/annotate.h"
 #include "protocol/secrets.h"
@@ -57,6 +58,13 @@ void TapLog::on_notice(SimTime now, board::Level level, std::string_view text) {
 void TapLog::on_link(SimTime now, link::LinkState, std::string_view why) {
     if (options_.lines) {
         print(now, Ink::warning, "link", why, "");
+    }
+}
+
+void TapLog::on_deed(SimTime now, board::Channel channel, const fault::Deed& deed) {
+    if (options_.lines) {
+        print(now, Ink::error, fmt::format("fault {}", deed.fault),
+              fault::deed_text(deed, board::other_end(channel)), "");
     }
 }
 

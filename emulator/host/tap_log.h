@@ -27,6 +27,7 @@ class TapLog final : public LiveObserver {
     void on_sent(SimTime now, board::Channel channel, std::string_view line) override;
     void on_notice(SimTime now, board::Level level, std::string_view text) override;
     void on_link(SimTime now, link::LinkState state, std::string_view why) override;
+    void on_deed(SimTime now, board::Channel channel, const fault::Deed& deed) override;
 
   private:
     void print(SimTime now, Ink ink, std::string_view head, std::string_view text, std::string_view words);

@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::size_t max_text = 64U * 1024;
 constexpr double max_seconds = 1e9;  // thirty years: beyond it is no recording
-constexpr std::array<std::string_view, 7> from_names{"board", "screen",  "host",  "world",
-                                                     "usb",   "network", "module"};
+constexpr std::array<std::string_view, 8> from_names{"board", "screen",  "host",   "world",
+                                                     "usb",   "network", "module", "fault"};
 
 std::string found(const behaviour::Json& value) {
     const std::string text = value.dump(-1, ' ', true, behaviour::Json::error_handler_t::replace);
@@ -106,7 +106,7 @@ std::optional<RecordedLine> RecordingReader::parse() {
                                                    std::string_view(from.get_ref<const std::string&>()))
                                        : from_names.end();
     if (name == from_names.end()) {
-        fail("from: " + found(from) + "; expected board, screen, host, world, usb, network or module");
+        fail("from: " + found(from) + "; expected board, screen, host, world, usb, network, module or fault");
     }
     out.from = static_cast<RecordedLine::From>(name - from_names.begin());
     const char* key = out.key();

@@ -26,11 +26,16 @@ struct RecordedLine {
         usb,      ///< the board's reply over its USB port
         network,  ///< a datagram to the board
         module,   ///< a datagram from the board
+        fault,    ///< said of a fault: what it did to a line, or that one of the printer begins or is over
     };
     /// Whether it is a datagram, which is kept whole.
     bool is_datagram() const { return from == From::network || from == From::module; }
-    /// What its words stand under: "line", "do" or "datagram".
-    const char* key() const { return from == From::world ? "do" : is_datagram() ? "datagram" : "line"; }
+    /// Whether it is a sentence for people, which nobody on a line has said.
+    bool is_remark() const { return from == From::fault; }
+    /// What its words stand under: "line", "do", "datagram" or "told".
+    const char* key() const {
+        return from == From::world ? "do" : is_datagram() ? "datagram" : is_remark() ? "told" : "line";
+    }
 
     machine::SimTime t{0};  ///< end of the line on the wire, from the start of the recording
     From from = From::board;
@@ -38,7 +43,7 @@ struct RecordedLine {
     std::uint64_t peer = 0;  ///< of datagrams: who is at the other end, a number from 1
 };
 
-/// "board", "screen", "host", "world", "usb", "network" or "module".
+/// "board", "screen", "host", "world", "usb", "network", "module" or "fault".
 std::string_view from_name(RecordedLine::From from);
 
 /// A recording that cannot be read. what() is "FILE:LINE: what was found and what was expected".
@@ -51,6 +56,7 @@ class RecordingError : public std::runtime_error {
 ///     {"t": 16.451778, "from": "screen", "line": "N-0 M2134 FW:V1.02.xx*84"}
 ///     {"t": 135.5, "from": "world", "do": "filament in"}
 ///     {"t": 140.5, "from": "network", "peer": 1, "datagram": "M28 box.ctb\r\n"}
+///     {"t": 150.5, "from": "fault", "told": "fault 1: drop to screen: N-0 L1 X0.000*13"}
 /// `t` is in seconds, objects with a "note" and without it are passed over, bytes stand as the characters of
 /// the same number (0xFF is \u00ff), blank lines are skipped, keys other than these are left alone. A line of
 /// the file may have 64 KiB; memory does not grow with the file.

@@ -141,6 +141,7 @@ void Player::do_entry(SimTime now, const RecordedLine& entry) {
         case From::board:
         case From::usb:
         case From::module:
+        case From::fault:  // what one did to what the board said; what it made the board hear is recorded so
             break;
         case From::network:
             board_.receive_datagram(now, entry.peer, entry.bytes);
@@ -162,7 +163,9 @@ board::Counters Player::play(SimTime tail) {
     align();
     SimTime end{0};
     while (const auto entry = talk_.next()) {
-        const SimTime now = entry->t - shift_;
+        // What was done before the board first spoke was done when it was switched on.
+        const SimTime now =
+            entry->from == From::world ? std::max(entry->t - shift_, SimTime{0}) : entry->t - shift_;
         if (now - end > longest_gap) {
             throw ReplayError(fmt::format(
                 "at {:.6f} s: nothing for {} days before; a recording is silent for 366 days at most",

@@ -94,6 +94,8 @@ std::string head_of(From from, std::string_view peer) {
             return "network → board";
         case From::module:
             return "board → network";
+        case From::fault:
+            return "fault";
         case From::world:
             break;
     }
@@ -120,7 +122,7 @@ std::string words_of(const JudgedLine& line) {
     if (!line.decoded) {
         return {};
     }
-    std::string words = protocol::explain(*line.decoded);
+    std::string words = line.own.empty() ? protocol::explain(*line.decoded) : line.own;
     for (const LineMark& mark : line.marks) {
         if (mark.kind != "checksum" && !mark.kind.starts_with("unknown")) {
             words += fmt::format(" [{}]", mark.sentence);
@@ -166,12 +168,12 @@ Json field_json(const protocol::DecodedField& field) {
     return out;
 }
 
-void add_decoded(Json& out, const DecodedLine& line) {
+void add_decoded(Json& out, const DecodedLine& line, const std::string& own) {
     out["code"] = behaviour::from_wire(line.code_text);
     if (line.code != nullptr) {
         out["title"] = line.code->title;
     }
-    out["words"] = protocol::explain(line);
+    out["words"] = own.empty() ? protocol::explain(line) : own;
     Json fields = Json::array();
     for (const protocol::DecodedField& field : line.fields) {
         fields.push_back(field_json(field));
@@ -204,7 +206,7 @@ JudgedLine judge(TranscriptEntry entry, const std::vector<LineJudge>& judges) {
         if (out.piece.empty()) {
             out.decoded = protocol::decode_line(without_nuls(line), out.entry.direction());
         }
-    } else if (!out.entry.note && out.entry.from != From::world) {
+    } else if (!out.entry.note && out.entry.from != From::world && out.entry.from != From::fault) {
         out.decoded = protocol::decode_line(without_nuls(out.entry.bytes), out.entry.direction());
         if (out.entry.from == From::usb && out.decoded->code == nullptr) {
             out.decoded.reset();  // a console's own words, of which there is no list
@@ -283,7 +285,7 @@ std::string json_line(const JudgedLine& line) {
         out["words"] = line.piece;
     }
     if (line.decoded) {
-        add_decoded(out, *line.decoded);
+        add_decoded(out, *line.decoded, line.own);
         Json marks = Json::array();
         std::transform(line.marks.begin(), line.marks.end(), std::back_inserter(marks),
                        [](const LineMark& mark) {

@@ -133,6 +133,10 @@ void Compiler::read_bounds(ObjectReader& reader, Read& out) {
             *bound = number;
         }
     }
+    if (out.min && out.max && *out.min > *out.max) {
+        findings.add(reader.pointer("min"),
+                     fmt::format("min {} is above max {}: nothing is within", *out.min, *out.max));
+    }
     pick(reader, "bounds_of", bounds_names, out.bounds_first);
     pick(reader, "outside", bad_names, out.outside);
     reader.wire_text("until", out.until, 32);

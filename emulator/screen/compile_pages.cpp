@@ -24,6 +24,10 @@ void Compiler::button(std::size_t page, const std::string& name, const Json& nod
         numbers.required("normally");
         numbers.number("min", typed.min, -1e9, 1e9);
         numbers.number("max", typed.max, -1e9, 1e9);
+        if (typed.min > typed.max) {
+            findings.add(numbers.pointer("min"),
+                         fmt::format("min {} is above max {}: nothing is within", typed.min, typed.max));
+        }
         numbers.number("normally", typed.normally, typed.min, typed.max);
         numbers.finish();
         out.input = typed;

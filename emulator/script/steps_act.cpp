@@ -205,7 +205,9 @@ bool take_away(Acting& acting, const MadeFault& made) {
     }
     bool done = false;
     acting.stage.visit([&](board::Board& board, SimTime now) {
-        board.tinker(now, [&](machine::Machine& m) { done = m.faults.remove(made.printer); });
+        board.tinker(
+            now, [&](machine::Machine& m) { done = m.faults.remove(made.printer); },
+            fault::world_words_of_mending(board.machine().faults, made.printer));
     });
     return done;
 }
@@ -222,11 +224,14 @@ std::string run_fault(Acting& acting, const Step& step) {
     if (fault::is_for_printer(*step.fault)) {
         std::string refusal;
         acting.stage.visit([&](board::Board& board, SimTime now) {
-            board.tinker(now, [&](machine::Machine& m) {
-                const machine::FaultRequest request = fault::to_request(*step.fault);
-                made.printer = m.faults.add(now, request);
-                refusal = made.printer == 0 ? m.faults.refusal(*request.info) : "";
-            });
+            const machine::FaultRequest request = fault::to_request(*step.fault);
+            board.tinker(
+                now,
+                [&](machine::Machine& m) {
+                    made.printer = m.faults.add(now, request);
+                    refusal = made.printer == 0 ? m.faults.refusal(*request.info) : "";
+                },
+                fault::world_words(request, now));
         });
         if (made.printer == 0) {
             return refusal;
@@ -268,7 +273,9 @@ std::string run_clear(Acting& acting, const Step& step) {
     if (step.text == all_faults) {
         acting.stage.faults()->clear();
         acting.stage.visit([](board::Board& board, SimTime now) {
-            board.tinker(now, [](machine::Machine& m) { m.faults.clear(); });
+            board.tinker(
+                now, [](machine::Machine& m) { m.faults.clear(); },
+                fault::world_words_of_mending(board.machine().faults));
         });
         acting.faults.clear();
     } else if (const auto hit = acting.faults.find(step.text); hit != acting.faults.end()) {

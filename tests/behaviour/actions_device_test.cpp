@@ -84,7 +84,7 @@ const std::vector<ActionRow>& device_action_rows() {
          [](Bench& b) {
              b.run(R"({"card.choose": {"disk": 1}})");
              CHECK(b.number("card.chosen") == 1);
-             b.run(R"({"card.choose": {"disk": 2}})");
+             b.run(R"({"card.choose": {"disk": "{S}"}})", "M1 S2");
              CHECK(b.number("card.chosen") == 1);
              CHECK(b.notices.size() == 1);
          }},

@@ -23,7 +23,7 @@ const std::vector<ActionRow>& fault_action_rows() {
              CHECK(b.number("faults.jam") == 0);
              CHECK(b.printer().filament_path.lost == 0);
              CHECK(b.notices.empty());
-             b.run(R"({"fault.set": {"fault": "jamm"}})");
+             b.run(R"({"fault.set": {"fault": "{arg}"}})", "M1 jamm");
              b.run(R"({"fault.set": {"fault": "jam", "value": 101}})");
              b.run(R"({"fault.set": {"fault": "jam", "part": "bed"}})");
              b.run(R"({"fault.set": {"fault": "heater_dead", "part": "bad"}})");
@@ -43,7 +43,7 @@ const std::vector<ActionRow>& fault_action_rows() {
              b.run(R"("fault.clear")");
              CHECK(b.number("faults.endstop_dead") == 0);
              CHECK_FALSE(b.printer().motion.faults().dead_endstops[0]);
-             b.run(R"({"fault.clear": {"fault": "refuse"}})");
+             b.run(R"({"fault.clear": {"fault": "{arg}"}})", "M1 refuse");
              CHECK(b.notices.size() == 1);
          }},
         {"job.continue",

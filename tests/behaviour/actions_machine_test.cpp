@@ -34,7 +34,7 @@ const std::vector<ActionRow>& machine_action_rows() {
              b.run(R"({"heater.target": {"heater": "nozzle", "c": 9999}})");
              CHECK(b.number("heaters.nozzle.target") == 250);
              CHECK(b.notices.size() == 1);
-             b.run(R"({"heater.target": {"heater": "stove", "c": 60}})");
+             b.run(R"({"heater.target": {"heater": "{arg}", "c": 60}})", "M1 stove");
              CHECK(b.notices.back() == "unknown heater \"stove\"; expected nozzle or bed");
          }},
         {"heater.wait",
@@ -135,7 +135,7 @@ const std::vector<ActionRow>& machine_action_rows() {
              CHECK(b.number("fans.part") == 50);
              CHECK(b.number("fans.second") == 100);
              for (const char* fan : {"1", "3", "-1"}) {
-                 b.run(R"({"fan.pwm": {"fan": )" + string(fan) + R"(, "value": 0}})");
+                 b.run(R"({"fan.pwm": {"fan": "{S}", "value": 0}})", "M1 S" + string(fan));
              }
              CHECK(b.notices.size() == 3);
              CHECK(b.number("fans.part") == 50);
@@ -160,7 +160,7 @@ const std::vector<ActionRow>& machine_action_rows() {
              b.run(R"({"mixer.share": {"channel": 1, "percent": 30}})");
              CHECK(b.number("mixer.a") == 70);
              CHECK(b.number("mixer.b") == 30);
-             b.run(R"({"mixer.share": {"channel": 3, "percent": 30}})");
+             b.run(R"({"mixer.share": {"channel": "{S}", "percent": 30}})", "M1 S3");
              CHECK(b.notices.size() == 1);
          }},
         {"mixer.tool",

@@ -1,5 +1,8 @@
 // Exit codes, sentences and the small commands.
 
+#include <algorithm>
+#include <fstream>
+
 #include "tests/e2e/program.h"
 
 namespace fauxboard::e2e {
@@ -7,7 +10,7 @@ namespace {
 
 TEST_CASE("each mistake has its exit code and its sentence, and says nothing on stdout") {
     const std::vector<Mistake> mistakes{
-        {{}, usage, "subcommand"},
+        {{}, usage, "a command is missing; known: run fleet"},
         {{"frobnicate"}, usage, "there is no command 'frobnicate'"},
         {{"rum"}, usage, "did you mean 'run'?"},
         {{"run", "--frobnicate"}, usage, "--frobnicate"},
@@ -36,6 +39,15 @@ TEST_CASE("each mistake has its exit code and its sentence, and says nothing on 
         {{"send", "--port", "/dev/ttyMISSING", "M104", "S200"}, usage, "quote"},
         {{"send", "--port", "/dev/ttyMISSING", "M105"}, no_port, "/dev/ttyMISSING"},
         {{"send", "--port", "/dev/ttyMISSING", "--wait", "0", "M105"}, usage, "--wait"},
+        {{"tap", "a"}, usage, "found a; expected two ends"},
+        {{"tap", "a", "b", "c"}, usage, "found a b c; expected two ends"},
+        {{"screen"}, usage, "a command is missing; known: press tour show interactive"},
+        {{"new", "profil", "x"}, usage, "expected profile or screen or scenario; did you mean 'profile'?"},
+        {{"check"}, usage, "fauxboard check: file is required"},
+        {{"run", "--log-level", "wran"}, usage, "expected one of trace, debug, info, warning, error, off"},
+        {{"run", "--log-json"}, usage, "--log-file"},
+        {{"run", "--log-file", "/etc/passwd"}, bad_input, "is no log of fauxboard's"},
+        {{"run", "--log-file", "/missing/log"}, bad_input, "cannot be written"},
     };
     check_mistakes(mistakes);
 }
@@ -91,6 +103,47 @@ TEST_CASE("send frames, shows what comes back, and knows when nothing does") {
     CHECK(contains(nothing.errors, "nothing came back for 'M105'"));
     CHECK_FALSE(contains(nothing.errors, "M9999"));
     CHECK(link::test::take(silent.master.get()) == "M105\r\nM9999\r\n");
+}
+
+TEST_CASE("send: what had been said before is no answer, and shown on demand") {
+    const link::test::OtherPty pty;
+    const UniqueFd held = link::test::open_terminal(pty.path);
+    const Args command{"send", "--port", pty.path, "--wait", "20", "--bare", "M9999"};
+    link::test::say(pty.master.get(), "N-0 L14 old*1\r\nN-0 L14 old*1\r\n");
+    const Result folded = run(command);
+    CHECK_FALSE(contains(folded.out, "L14 old"));
+    CHECK(contains(folded.out, "2 lines that had been said before left out; --all shows them"));
+    link::test::say(pty.master.get(), "N-0 L14 old*1\r\n");
+    Args all = command;
+    all.insert(all.end() - 1, "--all");
+    const Result whole = run(all);
+    CHECK(contains(whole.out, "L14 old"));
+    CHECK_FALSE(contains(whole.out, "left out"));
+}
+
+TEST_CASE("run: a log of its own doings, apart from the talk") {
+    const TemporaryFolder folder;
+    const std::string file = folder.file("own.log");
+    const Result result = run({"run", "--speed", "max", "--duration", "5s", "--fault",
+                               "filament_out:at=1s,for=2s", "--log-file", file, "--log-json", "-q"});
+    CHECK(result.code == 0);
+    std::ifstream in(file);
+    std::vector<nlohmann::json> told;
+    for (std::string text; std::getline(in, text);) {
+        told.push_back(nlohmann::json::parse(text));
+        CHECK(told.back().value("text", "").find("N-0 L1 ") == std::string::npos);
+    }
+    const auto find = [&](std::string_view part) {
+        const auto hit = std::find_if(told.begin(), told.end(), [&](const nlohmann::json& one) {
+            return contains(one.value("text", ""), part);
+        });
+        return hit == told.end() ? nlohmann::json::object() : *hit;
+    };
+    CHECK(find("begins")["what"] == "program");
+    CHECK(find("geeetech-a30t.json")["level"] == "info");
+    CHECK(find("fault p1, filament_out").value("t", 0.0) == 1.0);
+    CHECK(find("is over").value("t", 0.0) == 3.0);
+    CHECK(find("After 5.000 s")["what"] == "program");
 }
 
 }  // namespace

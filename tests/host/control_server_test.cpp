@@ -27,8 +27,11 @@ struct Bench {
     explicit Bench(SimTime duration = machine::never)
         : board(load_profile_by_name("geeetech-a30t"), {}, {false, 1, &observers}),
           live(board, link, clock, &observers),
-          target({loop, board, live, clock, link, nullptr, [this] { quit = true; }, 1, nullptr}),
-          server(loop, target.hub(), [this](std::string_view text) { said += text; }) {
+          target({loop, board, live, clock, link, nullptr, [this] { quit = true; }, 1, nullptr, nullptr,
+                  [this](SimTime, std::string_view text) { did += text; }}),
+          server(loop, target.hub(), [this](board::Level level, std::string_view text) {
+              (level == board::Level::debug ? came_and_left : said) += text;
+          }) {
         observers.add(target);
         server.open(path);
         link.open(live);
@@ -53,6 +56,8 @@ struct Bench {
     bool quit = false;
     bool ended = false;
     std::string said;
+    std::string came_and_left;
+    std::string did;
     LiveTarget target;
     ControlServer server;
 };
@@ -103,6 +108,8 @@ TEST_CASE("a request on the socket reaches the board, and the board's line") {
     b.link.messages.clear();
     CHECK(client.ask(R"({"op": "send", "line": "L18 P1 S2"})")["ok"] == true);
     CHECK(b.link.all() == protocol::frame("L18 P1 S2"));
+    CHECK(b.did == "a client: send line=L18 P1 S2");  // `set` is told by the board itself
+    CHECK(b.came_and_left == "a client came to the control channel; clients: 1");
     const json status = client.ask(R"({"op": "status"})");
     CHECK(status["link"]["kind"] == "fake");
     CHECK(status["clients"] == 1);

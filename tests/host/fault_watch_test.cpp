@@ -54,5 +54,30 @@ TEST_CASE("faults of line and printer are told when they begin and when they are
     CHECK(news().empty());
 }
 
+TEST_CASE("it asks to be called when a fault of the printer begins or ends") {
+    board::Board board(load_profile_by_name("geeetech-a30t"), {}, {});
+    board.power_on(0s);
+    const testing::LooseFaults lines;
+    std::vector<std::string> said;
+    std::vector<board::SimTime> asked;
+    FaultWatch watch(
+        board, lines, [&](const std::string& sentence) { said.push_back(sentence); },
+        [&](board::SimTime when) { asked.push_back(when); });
+    watch.look();
+    CHECK(asked.empty());  // a board without faults pays nothing
+    board.machine().faults.add(0s, fault::to_request(fault_from_text("jam:at=10s,for=5s")));
+    for (const auto expected : {board::SimTime(10s), board::SimTime(15s), machine::never}) {
+        watch.look();
+        REQUIRE_FALSE(asked.empty());
+        CHECK(asked.back() == expected);
+        if (expected != machine::never) {
+            board.refresh(expected);
+            board.clear_output();
+        }
+    }
+    REQUIRE(said.size() == 2);
+    CHECK(said[1].ends_with(", is over"));
+}
+
 }  // namespace
 }  // namespace fauxboard::host

@@ -18,7 +18,8 @@ struct Bench {
     explicit Bench(const std::string& profile = "geeetech-a30t")
         : board(load_profile_by_name(profile), {}, {false, 1, &observers}),
           live(board, link, clock, &observers),
-          target({loop, board, live, clock, link, nullptr, [] {}, 1, screen_of(board.profile())}),
+          target(
+              {loop, board, live, clock, link, nullptr, [] {}, 1, screen_of(board.profile()), nullptr, {}}),
           session(target.hub(), [] {}) {
         observers.add(target);
         link.open(live);

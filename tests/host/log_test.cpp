@@ -56,8 +56,9 @@ TEST_CASE("a code that only the profile knows is said to be its own") {
     LineLog log(out, Detail::normal, 100);
     log.on_received(1s, Channel::main, "M2999 S3", Verdict::accepted);
     CHECK(contains(pipe.take(), "unknown \"M2999 S3\""));
-    log.ask(
-        [](Channel channel, std::string_view code) { return channel == Channel::main && code == "M2999"; });
+    log.ask([](Channel, const protocol::DecodedLine& line) {
+        return std::string(line.code_text == "M2999" ? "M2999: the profile's own" : "");
+    });
     log.on_received(1s, Channel::main, "M2999 S3", Verdict::accepted);
     CHECK(contains(pipe.take(), "M2999: the profile's own"));
     log.on_received(1s, Channel::main, "M2998", Verdict::accepted);
@@ -136,6 +137,25 @@ TEST_CASE("levels") {
     CHECK(lines(Detail::quiet) == 2);
     CHECK(lines(Detail::normal) == 5);
     CHECK(lines(Detail::verbose) == 6);
+}
+
+TEST_CASE("what is told of the program's own doings has a level of its own, apart from the talk") {
+    const auto text = [](Detail detail, LogLevel least) {
+        const Pipe pipe;
+        TextOutput out(pipe.out.get());
+        LineLog log(out, detail, 100);
+        log.tell_own(least);
+        log.on_sent(0us, board::Channel::main, "L1");
+        log.on_event(0us, machine::events().front());
+        log.on_world(0us, "filament in");
+        log.on_notice(0us, Level::error, "text");
+        return pipe.take();
+    };
+    CHECK(contains(text(Detail::quiet, LogLevel::info), "filament in"));
+    CHECK_FALSE(contains(text(Detail::quiet, LogLevel::info), "L1"));
+    CHECK(count_lines(text(Detail::quiet, LogLevel::off)) == 0);
+    CHECK(count_lines(text(Detail::normal, LogLevel::error)) == 2);
+    CHECK(count_lines(text(Detail::normal, LogLevel::trace)) == 4);
 }
 
 TEST_CASE("a flood is cut short, and its size is told") {
@@ -217,15 +237,20 @@ TEST_CASE("a recording holds every line of the wire and can be loaded at any mom
     recorder.on_received(2s, Channel::host, "M115", Verdict::accepted);
     recorder.on_sent(3s, board::Channel::main, "L9 SN:\xFF");
     recorder.on_world(4s, R"({"heater.target":{"heater":"bed","c":60.0}})");
+    recorder.on_deed(5s, Channel::main, {1, fault::Direction::to_screen, "drop", "L9"});
+    recorder.on_fault(6s, "fault p1, jam, begins");
     const auto lines = record::load_recording(file);
-    REQUIRE(lines.size() == 4);
+    REQUIRE(lines.size() == 6);
+    CHECK(lines[4].from == record::RecordedLine::From::fault);
+    CHECK(lines[4].bytes == "fault 1: drop to screen: L9");
+    CHECK(lines[5].bytes == "fault p1, jam, begins");
     CHECK(lines[3].from == record::RecordedLine::From::world);
     CHECK(lines[3].bytes == R"({"heater.target":{"heater":"bed","c":60.0}})");
     CHECK(lines[0].t == 1'000'001us);
     CHECK(lines[0].from == record::RecordedLine::From::screen);
     CHECK(lines[1].from == record::RecordedLine::From::host);
     CHECK(lines[2].bytes == "L9 SN:\xFF");
-    CHECK(recorder.lines() == 4);
+    CHECK(recorder.lines() == 6);
 }
 
 TEST_CASE("a full disk ends the recording once, and nothing else") {

@@ -112,7 +112,8 @@ TEST_CASE("recording: a wrong line is told by file, line and what is wrong") {
     CHECK(error_of("{\"t\": 1e99, \"from\": \"board\", \"line\": \"x\"}").find("expected seconds") !=
           std::string::npos);
     CHECK(error_of("{\"t\": 0, \"from\": \"moon\", \"line\": \"x\"}") ==
-          "talk.jsonl:1: from: found \"moon\"; expected board, screen, host, world, usb, network or module");
+          "talk.jsonl:1: from: found \"moon\"; expected board, screen, host, world, usb, network, module or "
+          "fault");
     CHECK(error_of("{\"t\": 0, \"from\": \"world\", \"line\": \"x\"}") ==
           "talk.jsonl:1: the key \"do\" is missing");
     for (const char* bytes : {"\"\\u0100\"", "\"a\\nb\"", "7"}) {

@@ -90,6 +90,22 @@ TEST_CASE("replay: screen, host and world reach the board") {
     CHECK(result.counters.unknown_codes == 0);
 }
 
+TEST_CASE(
+    "replay: a fault of the printer comes again as it was asked for; what is told of faults is passed over") {
+    const ReplayResult result =
+        run({{seconds(1), From::board, "N-0 L3*1"},
+             {seconds(0.5), From::world, R"({"fault.set":{"fault":"filament_out","after_s":6.0}})"},
+             {seconds(1), From::fault, "fault 1: drop to screen: N-0 L3*1"},
+             {seconds(2), From::world, "filament in"},
+             screen(14, "M105")});
+    const RecordedLine* there = first(result, " FT:1 ");
+    REQUIRE(there != nullptr);
+    const auto gone = std::find_if(result.lines.begin(), result.lines.end(), [&](const RecordedLine& line) {
+        return line.t > there->t && line.bytes.find(" FT:0 ") != std::string::npos;
+    });
+    CHECK(gone != result.lines.end());
+}
+
 TEST_CASE("replay: unknown things cannot be done, unknown codes are told") {
     CHECK_THROWS_WITH_AS(run({{seconds(1.5), From::world, "coffee in"}}),
                          "at 1.500000 s: \"coffee in\" is nothing that can be done to the machine",

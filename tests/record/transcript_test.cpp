@@ -72,8 +72,8 @@ TEST_CASE("a broken JSON line is one bad entry, with what was found and expected
     CHECK(all_bytes(entries) == "a|BAD|BAD|BAD|b|");
     CHECK(entries[1].problem == "not JSON; expected one JSON object a line");
     CHECK(entries[2].problem ==
-          "from: found \"x\"; expected board, screen, host, world, usb, network "
-          "or module");
+          "from: found \"x\"; expected board, screen, host, world, usb, network, "
+          "module or fault");
     CHECK(entries[3].problem == "no JSON object, in a recording of JSON lines");
     CHECK(entries[3].number == 4);
     CHECK(entries[3].bytes == "not JSON");

@@ -56,6 +56,19 @@ TEST_CASE("check: a screen's first word without a line end is remarked upon") {
     CHECK(check_file(FAUXBOARD_SOURCE_DIR "/profiles/screens/geeetech-a30.json").remark.empty());
 }
 
+TEST_CASE("check: a schema that is not where the file says is remarked upon, with the place where it is") {
+    const TemporaryFile copied(
+        "c.json", R"({"$schema": "schemas/profile.schema.json", "name": "c", "extends": "geeetech-a30t"})");
+    CHECK(sentences(check_file(copied.path())) == "");
+    const std::string remark = check_file(copied.path()).remark;
+    CHECK(remark.find("leads nowhere from here") != std::string::npos);
+    CHECK(remark.find("profiles/schemas/profile.schema.json\"") != std::string::npos);
+    const TemporaryFile url(
+        "u.json",
+        R"({"$schema": "https://example.org/profile.schema.json", "name": "u", "extends": "geeetech-a30t"})");
+    CHECK(check_file(url.path()).remark == "");
+}
+
 TEST_CASE("check: what the loader finds comes with line, place and nearest name, and once only") {
     const TemporaryFile file("wrong.json", R"({
   "name": "wrong",

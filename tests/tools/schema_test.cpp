@@ -50,6 +50,7 @@ json everything() {
         "line": { "none": false, "optional": true, "baud": 9600, "checksum": "ignored", "queue_lines": 8, "peer": "host", "unfinished_ms": 20,
                   "framed": false, "ring_bytes": 200, "line_bytes": 95, "comment_from": ";", "codes": "GMT" },
         "transmit": { "tick_ms": 20, "first_ms": 5, "queue_codes": 29, "burst_bytes": 1000, "piece_bytes": 400 },
+        "words": { "M1": "one", "L18 P26 S3": { "title": "bed", "fields": { "S": "which" } } },
         "identity": { "device_name": "a", "model": "b", "serial_number": "\u00ff", "firmware": "d", "volume": "e", "hardware": "f" },
         "variables": { "v": { "value": 1, "min": 0, "max": 2, "help": "h", "stored": true } },
         "defaults": { "addons.sound": true, "settings.steps.x": 81, "var.v": 2 },

@@ -155,9 +155,16 @@ void mixer_range(Printer& p, ActionContext& c, Args a) {
     ratio_check(c, a[3].none() || mixer.set_end_height(a[3].number));
 }
 
-constexpr std::array heater_target_args{ArgInfo{"heater", text, true, "nozzle or bed"},
+std::optional<std::vector<std::string_view>> heater_names(const machine::MachineConfig& machine) {
+    return dynamic_cast<const Config*>(&machine) == nullptr
+               ? std::nullopt
+               : std::optional<std::vector<std::string_view>>({"nozzle", "bed"});
+}
+constexpr behaviour::KnownNames heaters{"heater", heater_names};
+
+constexpr std::array heater_target_args{ArgInfo{"heater", text, true, "nozzle or bed", {}, &heaters},
                                         ArgInfo{"c", number, true, "target, C; 0 is off", "C"}};
-constexpr std::array heater_args{ArgInfo{"heater", text, true, "nozzle or bed"}};
+constexpr std::array heater_args{ArgInfo{"heater", text, true, "nozzle or bed", {}, &heaters}};
 constexpr std::array home_args{ArgInfo{"x", boolean, false, "home X"}, ArgInfo{"y", boolean, false, "home Y"},
                                ArgInfo{"z", boolean, false, "home Z; none of the three means all"}};
 std::optional<std::vector<std::string_view>> procedure_names(const machine::MachineConfig& machine) {
@@ -187,18 +194,20 @@ constexpr std::array move_args{
 constexpr std::array position_args{
     ArgInfo{"x", number, false, "mm", "mm"}, ArgInfo{"y", number, false, "mm", "mm"},
     ArgInfo{"z", number, false, "mm", "mm"}, ArgInfo{"e", number, false, "mm", "mm"}};
-constexpr std::array fan_args{ArgInfo{"fan", number, true, "0 part cooling, 2 second fan"},
+constexpr std::array fan_args{ArgInfo{"fan", number, true, "0 part cooling, 2 second fan", {}, nullptr, 0, 2},
                               ArgInfo{"value", number, true, "0 to 255"}};
 constexpr std::array weights_args{ArgInfo{"a", number, false, "weight of extruder 1"},
                                   ArgInfo{"b", number, false, "weight of extruder 2"},
                                   ArgInfo{"c", number, false, "weight of extruder 3"}};
 constexpr std::array packed_args{
     ArgInfo{"ratio", number, true, "A + 256 B + 65536 C, percents that add up to 100"}};
-constexpr std::array share_args{ArgInfo{"channel", number, true, "0 to 2"},
+constexpr std::array share_args{ArgInfo{"channel", number, true, "0 to 2", {}, nullptr, 0, 2},
                                 ArgInfo{"percent", number, true, "0 to 100", "%"}};
-constexpr std::array tool_args{ArgInfo{"tool", number, true, "0 to 3"}};
-constexpr std::array mode_args{ArgInfo{"mode", number, true, "0 off, 1 fixed ratio, 2 and 3 template"}};
-constexpr std::array template_args{ArgInfo{"template", number, true, "1 to 8 fixed, 9 to 14 custom"}};
+constexpr std::array tool_args{ArgInfo{"tool", number, true, "0 to 3", {}, nullptr, 0, 3}};
+constexpr std::array mode_args{
+    ArgInfo{"mode", number, true, "0 off, 1 fixed ratio, 2 and 3 template", {}, nullptr, 0, 3}};
+constexpr std::array template_args{
+    ArgInfo{"template", number, true, "1 to 8 fixed, 9 to 14 custom", {}, nullptr, 1, 14}};
 constexpr std::array range_args{ArgInfo{"start", number, false, "packed ratio at the start"},
                                 ArgInfo{"end", number, false, "packed ratio at the end"},
                                 ArgInfo{"start_height", number, false, "mm", "mm"},
