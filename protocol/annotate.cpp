@@ -86,6 +86,13 @@ DecodedLine decode_line(std::string_view line, Direction direction) {
     return decoded;
 }
 
+bool is_of_a_screen(const DecodedLine& line) {
+    if (!line.prefixes.empty()) {
+        return line.prefixes.front().number == "-0";
+    }
+    return line.code != nullptr && (line.code->letter == 'L' || line.code->word == "log");
+}
+
 std::string encode_body(const DecodedLine& line) {
     std::string body = line.code_text;
     for (const DecodedField& field : line.fields) {

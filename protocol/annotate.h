@@ -55,6 +55,25 @@ struct DecodedLine {
 /// Takes one line (without its line end) apart. Never fails: what the catalogue lacks comes out as unknown.
 DecodedLine decode_line(std::string_view line, Direction direction);
 
+/// Whether only the line of a control board and its touch screen carries it: framed with "N-0", an L code, or
+/// what a screen says as it starts. Hosts number from 0 up, and boards answer them in words.
+bool is_of_a_screen(const DecodedLine& line);
+
+/// What the other end of a line is called that does not say it: "screen" from the first line on that only a
+/// screen's line carries, "host" before.
+class PeerName {
+  public:
+    /// Once for each line, in their order.
+    std::string_view at(const DecodedLine& line) {
+        screen_ = screen_ || is_of_a_screen(line);
+        return get();
+    }
+    std::string_view get() const { return screen_ ? "screen" : "host"; }
+
+  private:
+    bool screen_ = false;
+};
+
 /// Puts the parts together again: numbers are printed from their value and decimals, the checksum is
 /// computed. Gives the bytes decoded (but for blanks behind the checksum, leading zeros in it, and a wrong
 /// checksum, which comes out right). No line end.

@@ -31,6 +31,12 @@ void BoardUnit::say(board::Level level, std::string_view text) {
 // Setting up.
 // -----------------------------------------------------------------------------------------------
 
+/// A screen is there when the board starts, and has heard all of it; a host opens its port some time, and
+/// hears what comes from then on.
+bool BoardUnit::is_for_a_screen() const {
+    return profile_->line.peer == "screen";
+}
+
 link::Link& BoardUnit::make_wire() {
     if (!options_.screen.empty()) {
         return plug_.emplace(scenario_->cast.screen, *clock_).board_end();
@@ -48,24 +54,25 @@ std::unique_ptr<link::Link> BoardUnit::make_link() {
         return link::make_no_link();
     }
     if (!options_.tcp.empty()) {
-        return link::make_tcp_listen_link(loop_, options_.tcp);
+        return link::make_tcp_listen_link(loop_, options_.tcp, is_for_a_screen());
     }
     if (!options_.port.empty()) {
         const std::string port = options_.port == "auto" ? link::pick_auto_port() : options_.port;
         return link::make_port_link(loop_, port, options_.baud != 0 ? options_.baud : profile_->line.baud);
     }
-    return link::make_pty_link(loop_, options_.pty_name, {profile_->line.baud, true});
+    return link::make_pty_link(loop_, options_.pty_name,
+                               {profile_->line.baud, is_for_a_screen(), options_.exact_baud});
 }
 
 std::unique_ptr<link::Link> BoardUnit::make_host_link() {
     const HostLine& line = options_.host;
     if (!line.tcp.empty()) {
-        return link::make_tcp_listen_link(loop_, line.tcp);
+        return link::make_tcp_listen_link(loop_, line.tcp, false);
     }
     if (!line.port.empty()) {
         return link::make_port_link(loop_, line.port, line.baud);
     }
-    return link::make_pty_link(loop_, line.pty_name, {0, false});
+    return link::make_pty_link(loop_, line.pty_name, {profile_->line.baud, false, options_.exact_baud});
 }
 
 void BoardUnit::set_up() {

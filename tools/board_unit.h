@@ -84,6 +84,7 @@ class BoardUnit {
     void set_up_panel();
     void add_faults();
     void tell_of_faults();
+    bool is_for_a_screen() const;
     link::Link& make_wire();
     /// A board that can do without its screen has no line for one when only its USB side was asked for.
     bool has_main_line() const {

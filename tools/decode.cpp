@@ -116,9 +116,11 @@ ExitCode decode(const DecodeOptions& options) {
         record::Transcripts transcripts(inputs.take());
         std::size_t lines = 0;
         bool sense = false;
+        protocol::PeerName peer;
         Batch batch;
         while (auto entry = transcripts.next()) {
-            const record::JudgedLine line = record::judge(std::move(*entry), judges);
+            record::JudgedLine line = record::judge(std::move(*entry), judges);
+            line.peer = line.decoded ? peer.at(*line.decoded) : peer.get();
             ++lines;
             sense = sense || record::makes_sense(line);
             const std::string text = options.json ? record::json_line(line) : record::text_line(line);

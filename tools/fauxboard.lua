@@ -1,8 +1,13 @@
 -- Wireshark dissector for the captures of `fauxboard tap --pcapng`: names every code and field of the line between a
--- Smartto control board and its touch screen.
+-- control board and its touch screen, or its host.
 --
 --     wireshark -X lua_script:tools/fauxboard.lua capture.pcapng
 --     tshark -X lua_script:tools/fauxboard.lua -r capture.pcapng -Y 'fauxboard.board.l2.t0 > 200'
+--
+-- A field's filter has the key it has on the wire, and a second one the name it is shown with: what a host asks is
+-- under `fauxboard.host`, a screen's requests under `fauxboard.screen`.
+--
+--     tshark ... -T fields -e frame.time_relative -e fauxboard.board.ok_t.nozzle -e fauxboard.board.ok_t.bed_target
 --
 -- or copy this file to the folder of personal Lua plugins (Help, About, Folders).
 --
@@ -15,10 +20,13 @@
 --
 --     tshark -X lua_script:tools/fauxboard.lua -r panel.pcapng -Y 'fauxboard_spi.wrong == 1'
 
-local proto = Proto("fauxboard", "Control board and touch screen")
+local proto = Proto("fauxboard", "Control board and touch screen or host")
 local header_bytes = 12
 local events = { [1] = "board", [2] = "screen" }
-local ways = { board = "board → screen", screen = "screen → board" }
+
+-- What the other end is called: "screen" from the first line on that only a screen's line carries.
+local peer = "host"
+function proto.init() peer = "host" end
 
 -- BEGIN CODES: made from the catalogue in protocol/; test_tools says when this is out of date, and with
 -- FAUXBOARD_UPDATE=1 in the environment it makes it anew.
@@ -989,18 +997,54 @@ local function slug(text)
     return (text:lower():gsub("[^%w]+", "_"):gsub("^_+", ""):gsub("_+$", ""))
 end
 
--- "fauxboard.board.l2.b": a filter's name for a field. A field without letters in its key goes by its name.
-local function filter_name(who, code, field)
-    local last = slug(field.key)
-    if last == "" then last = slug(field.name) end
-    if last == "" then last = "value" end
-    local name = slug(code.code)
-    if name == "" then name = slug(code.title) end  -- a line that begins with "//"
-    return "fauxboard." .. who .. "." .. name .. "." .. last
+-- The names of a code's fields in filters. A field without letters in its key, or with those of another key ("B:",
+-- "B@:"), goes by its name; where the code has several of that name, each has that of the field before it ahead:
+-- "bed_target".
+local function name_fields(code)
+    local count, key_of = {}, {}
+    for _, field in ipairs(code.fields) do
+        field.last = slug(field.key)
+        field.by_key = field.last ~= "" and (key_of[field.last] or field.key) == field.key
+        if field.by_key then
+            key_of[field.last] = field.key
+        else
+            field.last = slug(field.name)
+            count[field.last] = (count[field.last] or 0) + 1
+        end
+    end
+    local taken, before = {}, ""
+    for _, field in ipairs(code.fields) do
+        if field.by_key or count[field.last] == 1 then
+            before = slug(field.name)
+        elseif before ~= "" then
+            field.last = before .. "_" .. field.last
+        end
+        if field.last == "" then field.last = "value" end
+        taken[field.last] = true
+    end
+    for _, field in ipairs(code.fields) do
+        local label = slug(field.name)
+        if label ~= "" and not taken[label] then
+            taken[label] = true
+            field.label = label
+        end
+    end
 end
 
 local all = {}
 local is_text = {}
+
+-- "fauxboard.board.l2.b"
+local function filter_name(who, code, last, field)
+    local name = slug(code.code)
+    if name == "" then name = slug(code.title) end  -- a line that begins with "//"
+    local filter = "fauxboard." .. who .. "." .. name .. "." .. last
+    local textual = field.kind == "text" or field.kind == "word"
+    is_text[filter] = is_text[filter] or textual
+    all[filter] = field.name ~= "" and field.name or field.key
+    return filter
+end
+
 for who, list in pairs(codes) do
     for _, code in ipairs(list) do
         if code.words then
@@ -1008,11 +1052,15 @@ for who, list in pairs(codes) do
         else
             by_code[who][code.code] = code
         end
+        name_fields(code)
         for _, field in ipairs(code.fields) do
-            field.filter = filter_name(who, code, field)
-            local textual = field.kind == "text" or field.kind == "word"
-            is_text[field.filter] = is_text[field.filter] or textual
-            all[field.filter] = field.name ~= "" and field.name or field.key
+            field.filters = {}
+            for _, speaker in ipairs(who == "board" and { "board" } or { "screen", "host" }) do
+                field.filters[speaker] = {
+                    filter_name(speaker, code, field.last, field),
+                    field.label and filter_name(speaker, code, field.label, field),
+                }
+            end
         end
     end
 end
@@ -1267,24 +1315,26 @@ end
 
 -- ---- the tree ----
 
-local function add_field(tree, field, bytes)
+local function add_value(tree, filter, range, field)
+    if is_text[filter] then return tree:add(fields[filter], range, printable(field.text)) end
+    if field.number then return tree:add(fields[filter], range, field.number) end
+    return tree:add(range)
+end
+
+local function add_field(tree, speaker, field, bytes)
     local range = bytes(field.at - 1, field.length)
     if not field.info then
         local item = tree:add(general.unknown, range, printable(field.key .. field.text))
         item:add_proto_expert_info(unknown_field)
         return
     end
-    local filter = field.info.filter
-    local item
-    if is_text[filter] then
-        item = tree:add(fields[filter], range, printable(field.text))
-    elseif field.number then
-        item = tree:add(fields[filter], range, field.number)
-    else
-        item = tree:add(range)
-    end
+    local filters = field.info.filters[speaker]
+    local item = add_value(tree, filters[1], range, field)
     item:set_text(field_words(field))
     if field.info.meaning then item:append_text(" [" .. field.info.meaning .. "]") end
+    if filters[2] and (field.number or is_text[filters[2]]) then
+        add_value(tree, filters[2], range, field):set_hidden(true)
+    end
 end
 
 local function add_checksum(tree, frame, bytes)
@@ -1297,12 +1347,20 @@ local function add_checksum(tree, frame, bytes)
     tree:add(general.status, frame.status):set_generated()
 end
 
+-- Whether only the line of a board and its touch screen carries it.
+local function is_of_a_screen(line, code)
+    if line:find("^[ \t]*N") then return line:find("^[ \t]*N%-0[^%d]") ~= nil end
+    return code ~= nil and (code.code == "log" or code.code:find("^L%d") ~= nil)
+end
+
 -- One line, `bytes` without its end. Returns it in words.
 local function dissect_line(who, bytes, tree)
     local line = bytes:raw()
     local frame = unframe(line)
     local body = line:sub(frame.from, frame.to)
     local code, name, length = find_code(who, body)
+    if is_of_a_screen(line, code) then peer = "screen" end
+    local speaker = who == "board" and who or peer
     tree:add(general.line, bytes, printable(line))
     local words = code and code.title or 'unknown "' .. printable(body) .. '"'
     local code_item
@@ -1320,7 +1378,7 @@ local function dissect_line(who, bytes, tree)
     if #found > 0 then
         local body_bytes = bytes(start - 1, frame.to - start + 1)
         for _, field in ipairs(found) do
-            add_field(tree, field, body_bytes)
+            add_field(tree, speaker, field, body_bytes)
             table.insert(said, field_words(field))
         end
     end
@@ -1342,17 +1400,17 @@ function proto.dissector(buffer, pinfo, root)
     local ends = #text:match("[\r\n%z]*$")
     local length = #text - nuls - ends
     pinfo.cols.protocol = "fauxboard"
-    pinfo.cols.src = who
-    pinfo.cols.dst = who == "board" and "screen" or "board"
     local tree = root:add(proto, buffer(header_bytes))
-    tree:add(general.direction, ways[who]):set_generated()
-    if length <= 0 then
-        pinfo.cols.info = "(empty line)"
-        return buffer:len()
+    local words = "(empty line)"
+    if length > 0 then
+        words = dissect_line(who, buffer(header_bytes + nuls, length), tree)
+        if ends == 0 then words = words .. " [line not ended]" end
     end
-    local words = dissect_line(who, buffer(header_bytes + nuls, length), tree)
-    if ends == 0 then words = words .. " [line not ended]" end
-    tree:append_text(", " .. ways[who])
+    local from, to = who == "board" and who or peer, who == "board" and peer or "board"
+    pinfo.cols.src = from
+    pinfo.cols.dst = to
+    tree:add(general.direction, from .. " → " .. to):set_generated()
+    tree:append_text(", " .. from .. " → " .. to)
     pinfo.cols.info = words
     return buffer:len()
 end

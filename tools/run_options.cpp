@@ -101,6 +101,14 @@ void declare_host_line(CLI::App& command, RunOptions& options) {
         ->needs(port);
 }
 
+/// After both lines.
+void declare_speed_of_peers(CLI::App& command, RunOptions& options) {
+    command.add_flag(
+        "--exact-baud", options.exact_baud,
+        "A peer that sets a pseudo-terminal to another speed than the board's hears garbage, and "
+        "is heard as garbage, as on a real line (default: it is only told of)");
+}
+
 void declare_time(CLI::App& command, RunOptions& options) {
     add_speed(command, options.speed, true);
     add_duration(command, options.duration, "Stop after this virtual time");
@@ -133,6 +141,7 @@ void declare_run_options(CLI::App& command, RunOptions& options) {
         ->capture_default_str();
     declare_line(command, options);
     declare_host_line(command, options);
+    declare_speed_of_peers(command, options);
     command.add_option("--sd", options.sd, "Folder that is the SD card (default: a small built-in card)")
         ->type_name("DIR");
     command

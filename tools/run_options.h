@@ -26,11 +26,12 @@ struct HostLine {
 /// What `fauxboard run` was asked for.
 struct RunOptions {
     std::string profile = "geeetech-a30t";
-    std::string port;      ///< a device or "auto"; empty: none
-    std::string tcp;       ///< "HOST:PORT"; empty: none
-    std::string udp;       ///< "HOST:PORT"; empty: none
-    std::string pty_name;  ///< symlink to our pty; empty: none
-    unsigned baud = 0;     ///< bit/s; 0: what the profile says
+    std::string port;         ///< a device or "auto"; empty: none
+    std::string tcp;          ///< "HOST:PORT"; empty: none
+    std::string udp;          ///< "HOST:PORT"; empty: none
+    std::string pty_name;     ///< symlink to our pty; empty: none
+    unsigned baud = 0;        ///< bit/s; 0: what the profile says
+    bool exact_baud = false;  ///< a peer on a pty at another speed hears garbage
     HostLine host;
     host::Speed speed;
     std::uint64_t seed = 1;

@@ -18,10 +18,6 @@ constexpr std::size_t words_column = 44;  // longer lines have their words below
 constexpr std::size_t text_column = 28;   // where the line itself starts
 constexpr std::size_t head_width = 14;
 
-std::string words_of(std::string_view line, protocol::Direction direction) {
-    return protocol::explain(protocol::decode_line(line, direction));
-}
-
 std::string_view words_of(board::Verdict verdict) {
     switch (verdict) {
         case board::Verdict::bad_frame:
@@ -127,9 +123,11 @@ void LineLog::on_received(SimTime now, board::Channel channel, std::string_view 
 
 void LineLog::on_sent(SimTime now, board::Channel channel, std::string_view line) {
     if (detail_ != Detail::quiet && passes(now)) {
-        const bool screen = channel == board::Channel::main;
+        const protocol::DecodedLine decoded = protocol::decode_line(line, protocol::Direction::to_screen);
+        // What a board says to people on its USB port is in no list.
+        const bool known = channel == board::Channel::main || decoded.code != nullptr;
         print(now, Ink::outgoing, fmt::format("board → {}", other_end(channel)), behaviour::as_ascii(line),
-              screen ? words_of(line, protocol::Direction::to_screen) : std::string());
+              known ? protocol::explain(decoded) : std::string());
     }
 }
 

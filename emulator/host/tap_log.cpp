@@ -15,10 +15,6 @@ namespace {
 constexpr std::size_t words_column = 36;  // most lines are shorter
 constexpr std::size_t head_width = 14;
 
-std::string words_of(std::string_view line, protocol::Direction direction) {
-    return protocol::explain(protocol::decode_line(record::without_nuls(line), direction));
-}
-
 }  // namespace
 
 void TapLog::print(SimTime now, Ink ink, std::string_view head, std::string_view text,
@@ -32,19 +28,24 @@ void TapLog::print(SimTime now, Ink ink, std::string_view head, std::string_view
     out_.write(line.end());
 }
 
-void TapLog::on_received(SimTime now, board::Channel, std::string_view line, board::Verdict) {
-    if (options_.lines) {
-        print(now, Ink::incoming, "screen → board", behaviour::as_ascii(protocol::mask_secrets(line)),
-              options_.words ? words_of(protocol::mask_secrets(line), protocol::Direction::to_board)
-                             : std::string());
+void TapLog::say(SimTime now, std::string_view line, protocol::Direction direction) {
+    const protocol::DecodedLine decoded = protocol::decode_line(record::without_nuls(line), direction);
+    const std::string_view peer = peer_.at(decoded);
+    if (!options_.lines) {
+        return;
     }
+    const bool to_board = direction == protocol::Direction::to_board;
+    print(now, to_board ? Ink::incoming : Ink::outgoing,
+          to_board ? fmt::format("{} → board", peer) : fmt::format("board → {}", peer),
+          behaviour::as_ascii(line), options_.words ? protocol::explain(decoded) : std::string());
+}
+
+void TapLog::on_received(SimTime now, board::Channel, std::string_view line, board::Verdict) {
+    say(now, protocol::mask_secrets(line), protocol::Direction::to_board);
 }
 
 void TapLog::on_sent(SimTime now, board::Channel, std::string_view line) {
-    if (options_.lines) {
-        print(now, Ink::outgoing, "board → screen", behaviour::as_ascii(line),
-              options_.words ? words_of(line, protocol::Direction::to_screen) : std::string());
-    }
+    say(now, line, protocol::Direction::to_screen);
 }
 
 void TapLog::on_notice(SimTime now, board::Level level, std::string_view text) {

@@ -103,10 +103,13 @@ bool reaches_network(const std::string& path);
 /// lost, and a new peer never reads what was meant for the one before.
 ///
 /// A host's port drops what came before it was opened: `backlog` false. With `baud` a peer that opens it at
-/// another speed is told of: on a real line it would read nothing sensible.
+/// another speed is told of: on a real line it would read nothing sensible. With `exact_speed` it does read,
+/// and say, what would be heard then, until its speed is right. 38400, which a new pseudo-terminal has, is
+/// any speed.
 struct PtyUse {
     unsigned baud = 0;  ///< bit/s; 0: any
     bool backlog = true;
+    bool exact_speed = false;
 };
 std::unique_ptr<Link> make_pty_link(EventLoop& loop, std::string link_name, PtyUse use = {});
 
@@ -116,9 +119,9 @@ std::unique_ptr<Link> make_pty_link(EventLoop& loop, std::string link_name, PtyU
 std::unique_ptr<Link> make_port_link(EventLoop& loop, std::string device, unsigned baud);
 
 /// The board's side of a TCP line: listens on "HOST:PORT", ":PORT" or "PORT" (127.0.0.1), "[IPV6]:PORT". Port
-/// 0 takes a free one; path() tells which. One client at a time; a second one is turned away. Backlog as for
+/// 0 takes a free one; path() tells which. One client at a time; a second one is turned away. `backlog` as for
 /// the pty.
-std::unique_ptr<Link> make_tcp_listen_link(EventLoop& loop, std::string host_port);
+std::unique_ptr<Link> make_tcp_listen_link(EventLoop& loop, std::string host_port, bool backlog = true);
 
 /// The screen's side: connects when opened (which may take up to 5 s per address, then LinkError), and again
 /// every 500 ms after the connection was lost.

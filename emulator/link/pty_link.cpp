@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 #include <termios.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <utility>
 
+#include "emulator/link/line_speed.h"
 #include "emulator/link/link_name.h"
 #include "emulator/link/peer_watch.h"
 #include "emulator/link/stream_link.h"
@@ -46,18 +48,22 @@ class PtyLink final : public StreamLink {
     void on_end(const std::string& why) override;
     bool keeps_backlog() const override { return use_.backlog; }
     ssize_t read_some(int fd, char* data, std::size_t size) override;
-    bool short_read_is_last() const override { return true; }  // a master is read by bytes, never by lines
+    ssize_t write_some(int fd, const char* data, std::size_t size) override;
+    /// A master is read by bytes, never by lines; at a wrong speed not all that there is room for is read.
+    bool short_read_is_last() const override { return !garbled_; }
 
     void open_master();
     void hold_slave();
     bool make_raw() const;
     void forget_unread() const;
     void on_watch();
+    unsigned wrong_speed() const;
     void look_at_speed();
 
     PtyUse use_;
-    bool looked_ = false;  ///< at the speed of the peer that is there
-    Watch watch_events_;   ///< borrows watch_'s descriptor
+    bool looked_ = false;   ///< at the speed of the peer that is there
+    bool garbled_ = false;  ///< what was read last
+    Watch watch_events_;    ///< borrows watch_'s descriptor
     std::string name_;
     bool watch_peers_;
     std::string path_;
@@ -123,6 +129,7 @@ void PtyLink::on_watch() {
             // One left and the next came before we looked.
             drop_pending();
             forget_unread();
+            looked_ = false;
             go_waiting(fmt::format("{} was closed at its other end", path_));
             go_up(fmt::format("{} was opened at its other end", path_));
         }
@@ -152,33 +159,44 @@ void PtyLink::on_end(const std::string& /*why*/) {
 // ---- settings ----
 
 ssize_t PtyLink::read_some(int fd, char* data, std::size_t size) {
-    const ssize_t count = StreamLink::read_some(fd, data, size);
-    if (count > 0 && !looked_) look_at_speed();
-    return count;
+    const unsigned peer = use_.exact_speed ? wrong_speed() : 0;
+    garbled_ = peer != 0;
+    const ssize_t count = StreamLink::read_some(fd, data, garbled_ ? size / most_heard_per_byte : size);
+    if (count <= 0) return count;
+    if (!looked_) look_at_speed();
+    if (!garbled_) return count;
+    const std::string heard = as_heard({data, static_cast<std::size_t>(count)}, peer, use_.baud);
+    if (heard.empty()) {
+        errno = EINTR;
+        return -1;  // not the end: something came, and was nothing
+    }
+    std::copy(heard.begin(), heard.end(), data);
+    return static_cast<ssize_t>(heard.size());
 }
 
-// When its first bytes come a peer has set its speed, if it ever does: a new pseudo-terminal has 38400.
+// What a peer at another speed does not take of its garbage is lost: there is no telling what it belonged to.
+ssize_t PtyLink::write_some(int fd, const char* data, std::size_t size) {
+    const unsigned peer = use_.exact_speed ? wrong_speed() : 0;
+    if (peer == 0) return StreamLink::write_some(fd, data, size);
+    const std::string heard = as_heard({data, size}, use_.baud, peer);
+    const ssize_t count = heard.empty() ? 0 : StreamLink::write_some(fd, heard.data(), heard.size());
+    return count < 0 ? count : static_cast<ssize_t>(size);
+}
+
+/// The peer's, where it is not the board's; else 0. What a new pseudo-terminal has nobody has chosen.
+unsigned PtyLink::wrong_speed() const {
+    if (use_.baud == 0) return 0;
+    const unsigned speed = line_speed(master_.get());
+    return speed == use_.baud || speed == unset_speed ? 0 : speed;
+}
+
+// When its first bytes come a peer has set its speed, if it ever does.
 void PtyLink::look_at_speed() {
     looked_ = true;
-    termios settings{};
-    if (use_.baud == 0 || ::tcgetattr(master_.get(), &settings) != 0) return;
-    constexpr std::array<std::pair<speed_t, unsigned>, 11> speeds{{{B2400, 2400},
-                                                                   {B4800, 4800},
-                                                                   {B9600, 9600},
-                                                                   {B19200, 19200},
-                                                                   {B57600, 57600},
-                                                                   {B115200, 115200},
-                                                                   {B230400, 230400},
-                                                                   {B460800, 460800},
-                                                                   {B500000, 500000},
-                                                                   {B921600, 921600},
-                                                                   {B1000000, 1000000}}};
-    for (const auto& [code, baud] : speeds) {
-        if (code == ::cfgetospeed(&settings) && baud != use_.baud) {
-            note(fmt::format(
-                "{} was opened at {} baud, the board has {}: a real line would bring nothing but garbage",
-                path_, baud, use_.baud));
-        }
+    if (const unsigned peer = wrong_speed(); peer != 0) {
+        note(fmt::format("{} was opened at {} baud, the board has {}: {}", path_, peer, use_.baud,
+                         use_.exact_speed ? "both hear nothing but garbage"
+                                          : "a real line would bring nothing but garbage"));
     }
 }
 

@@ -18,8 +18,9 @@ namespace {
 
 class TcpListenLink final : public StreamLink {
   public:
-    TcpListenLink(EventLoop& loop, std::string host_port)
+    TcpListenLink(EventLoop& loop, std::string host_port, bool backlog)
         : StreamLink(loop),
+          backlog_(backlog),
           host_port_(std::move(host_port)),
           acceptor_(
               loop, [this](UniqueFd fd) { on_client(std::move(fd)); },
@@ -45,12 +46,13 @@ class TcpListenLink final : public StreamLink {
     ssize_t write_some(int fd, const char* data, std::size_t size) override {
         return write_socket(fd, data, size);
     }
-    bool keeps_backlog() const override { return true; }
+    bool keeps_backlog() const override { return backlog_; }
 
     void on_client(UniqueFd fd);
     void serve(Client client);
     bool client_is_leaving() const;
 
+    bool backlog_;
     std::string host_port_;
     std::string path_;
     Acceptor acceptor_;
@@ -111,8 +113,8 @@ void TcpListenLink::on_end(const std::string& why) {
 
 }  // namespace
 
-std::unique_ptr<Link> make_tcp_listen_link(EventLoop& loop, std::string host_port) {
-    return std::make_unique<TcpListenLink>(loop, std::move(host_port));
+std::unique_ptr<Link> make_tcp_listen_link(EventLoop& loop, std::string host_port, bool backlog) {
+    return std::make_unique<TcpListenLink>(loop, std::move(host_port), backlog);
 }
 
 }  // namespace fauxboard::link

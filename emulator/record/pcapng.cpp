@@ -115,8 +115,8 @@ std::string packet_of(SimTime since_epoch, std::uint32_t interface, bool out, st
 }  // namespace
 
 std::string pcapng_head() {
-    return section() + interface_of("board", "what the board says to the touch screen") +
-           interface_of("screen", "what the touch screen says to the board");
+    return section() + interface_of("board", "what the board says") +
+           interface_of("other end", "what a touch screen or a host says to the board");
 }
 
 std::string pcapng_packet(SimTime since_epoch, Direction direction, std::string_view bytes) {

@@ -19,8 +19,8 @@ namespace fauxboard::record {
 // Each packet begins with its 12 bytes: seconds and microseconds since 1970 (big endian), the event (1: the
 // board transmits, 2: it receives), the control lines (none) and two zeros.
 //
-// Two interfaces, "board" and "screen": who said it. The direction stands in each packet's flags as well, as
-// the board sees it: what it says is outbound.
+// Two interfaces, "board" and "other end": who said it. The direction stands in each packet's flags as well,
+// as the board sees it: what it says is outbound.
 
 inline constexpr std::uint16_t pcapng_link_type = 250;
 inline constexpr std::size_t pcapng_event_bytes = 12;

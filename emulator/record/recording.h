@@ -51,9 +51,9 @@ class RecordingError : public std::runtime_error {
 ///     {"t": 16.451778, "from": "screen", "line": "N-0 M2134 FW:V1.02.xx*84"}
 ///     {"t": 135.5, "from": "world", "do": "filament in"}
 ///     {"t": 140.5, "from": "network", "peer": 1, "datagram": "M28 box.ctb\r\n"}
-/// `t` is in seconds, objects with a "note" and without it are passed over, bytes stand as the characters of the same number (0xFF is \u00ff), blank lines are
-/// skipped, keys other than these are left alone. A line of the file may have 64 KiB; memory does not grow
-/// with the file.
+/// `t` is in seconds, objects with a "note" and without it are passed over, bytes stand as the characters of
+/// the same number (0xFF is \u00ff), blank lines are skipped, keys other than these are left alone. A line of
+/// the file may have 64 KiB; memory does not grow with the file.
 class RecordingReader {
   public:
     /// `name` is what errors call the file. `in` outlives the reader.

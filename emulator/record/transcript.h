@@ -48,7 +48,8 @@ struct TranscriptEntry {
 
     /// The way that the line went.
     protocol::Direction direction() const {
-        return from == RecordedLine::From::board || from == RecordedLine::From::module
+        return from == RecordedLine::From::board || from == RecordedLine::From::module ||
+                       from == RecordedLine::From::usb
                    ? protocol::Direction::to_screen
                    : protocol::Direction::to_board;
     }

@@ -80,12 +80,12 @@ std::string time_text(const TranscriptEntry& entry) {
     return entry.t ? fmt::format("{:.6f}", machine::to_seconds(*entry.t)) : std::string();
 }
 
-std::string_view head_of(From from) {
+std::string head_of(From from, std::string_view peer) {
     switch (from) {
         case From::board:
-            return "board → screen";
+            return fmt::format("board → {}", peer);
         case From::screen:
-            return "screen → board";
+            return fmt::format("{} → board", peer);
         case From::host:
             return "host → board";
         case From::usb:
@@ -204,8 +204,13 @@ JudgedLine judge(TranscriptEntry entry, const std::vector<LineJudge>& judges) {
         if (out.piece.empty()) {
             out.decoded = protocol::decode_line(without_nuls(line), out.entry.direction());
         }
-    } else if (!out.entry.note && out.entry.from != From::world && out.entry.from != From::usb) {
+    } else if (!out.entry.note && out.entry.from != From::world) {
         out.decoded = protocol::decode_line(without_nuls(out.entry.bytes), out.entry.direction());
+        if (out.entry.from == From::usb && out.decoded->code == nullptr) {
+            out.decoded.reset();  // a console's own words, of which there is no list
+        }
+    }
+    if (out.decoded && !is_datagram(out.entry) && out.entry.from != From::usb) {
         for (const LineJudge& each : judges) {
             each(out.entry, *out.decoded, out.marks);
         }
@@ -238,7 +243,7 @@ std::string text_line(const JudgedLine& line) {
     if (entry.form != Form::raw) {
         text += fmt::format("{:>15}  ", time_text(entry));
     }
-    text += fmt::format("{:<14}  ", entry.note ? "log" : head_of(entry.from));
+    text += fmt::format("{:<14}  ", entry.note ? "log" : head_of(entry.from, line.peer));
     std::string piece;
     const std::string bytes = is_datagram(entry) ? datagram_line(entry, piece) : entry.bytes;
     const std::string words = piece.empty() ? words_of(line) : piece;

@@ -23,6 +23,7 @@ struct JudgedLine {
     std::optional<protocol::DecodedLine> decoded;  ///< not of `world`, `bad` and notes, nor of pieces
     std::string piece;  ///< of a datagram that is a piece of a file: what it brings
     std::vector<LineMark> marks;
+    std::string_view peer = "screen";  ///< what the main line's other end is called; see protocol::PeerName
 };
 
 /// Finds something to say against lines, or nothing. Rows of a table: see line_judges().

@@ -15,7 +15,7 @@ except ImportError as missing:
 from board import Board, accepted
 from printer import Printer
 
-# The long print; FAUXBOARD_MOVES=60000 takes printcore the better part of an hour on a busy computer.
+# The long print; FAUXBOARD_MOVES=60000 takes printcore some five minutes.
 MOVES = int(os.environ.get("FAUXBOARD_MOVES", "6000"))
 BAD_LINE = ("garble:to_board,probability=0.01,seed=7,after=12", "drop:to_board,probability=0.01,seed=8,after=12")
 

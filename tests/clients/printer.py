@@ -14,6 +14,9 @@ class Printer(printcore):
     """A lost line, or a lost `ok`, makes printcore wait for ever; its users press a button then. Here the next
     line goes out when nothing came for `patience_s`: the numbers of the lines do the rest.
 
+    At a byte that is no UTF-8 it stops listening for good, and a board tells it its own garbled line as a command
+    that it does not know; here such a byte is read as an escape.
+
     It also sends two lines for one error, at `Resend:` and at the `ok` behind it, so that ever more of them are
     under way and each error costs more; here the `ok` counts alone."""
 
@@ -42,6 +45,10 @@ class Printer(printcore):
             self.at_resend = False
         else:
             self.may_send = value
+
+    def _readline_nb(self):
+        line = super()._readline_nb()
+        return line.decode("utf-8", "backslashreplace").encode("utf-8") if isinstance(line, bytes) else line
 
     def hear(self, line):
         self.last = time.monotonic()

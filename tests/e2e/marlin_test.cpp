@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "emulator/link/line_speed.h"
 #include "tests/e2e/program.h"
 #include "tests/e2e/raw_peer.h"
 #include "tests/support/marlin.h"
@@ -68,6 +69,49 @@ TEST_CASE("Marlin: without a screen's line the USB side is all there is, and wit
     Program usual({"run", "-q", "--host-pty"});
     CHECK(usual.ready()["link"] == "pty");
     CHECK(usual.stop() == 0);
+}
+
+TEST_CASE(
+    "Marlin: a host at a wrong speed reads what a real line would bring it, and the right one finds all "
+    "well") {
+    Program program({"run", "-q", "--profile", "marlin", "--host-pty", "--exact-baud", "--speed", "10"});
+    RawPeer host(program.ready()["host"]["path"]);
+    host.say("M155 S1\n");
+    const std::string report = " T:22.00 /0.00 B:22.00 /0.00 @:0 B@:0\n";
+    CHECK_FALSE(contains(host.until(report), "silence"));
+    host.set_speed(B57600);
+    CHECK_FALSE(contains(host.until(link::as_heard(report, 115200, 57600)), "silence"));
+    host.set_speed(B115200);
+    host.say("M92\n");
+    CHECK_FALSE(contains(host.until("  M92 X80.00 Y80.00 Z400.00 E500.00\nok\n"), "silence"));
+    CHECK(program.stop() == 0);
+}
+
+TEST_CASE("a host that comes later hears nothing of the start, only what it asks for") {
+    struct Row {
+        Args board;
+        std::string ask;
+        std::string answer;
+    };
+    for (const Row& row :
+         {Row{{"--profile", "chitu-base", "--pty"}, "M4002\n", "ok V4.3.3_LCDC"},
+          Row{{"--profile", "chitu-base", "--tcp", "127.0.0.1:0"}, "M4002\n", "ok V4.3.3_LCDC"},
+          Row{{"--profile", "marlin", "--host-pty"}, "M118 me\n", "me"},
+          Row{{"--profile", "geeetech-a30t", "--host-pty"}, "M18\n", "ok"}}) {
+        CAPTURE(row.board.at(1));
+        const TemporaryFolder folder;
+        const std::string control = folder.file("control");
+        Args all{"run", "-q", "--control", control};
+        all.insert(all.end(), row.board.begin(), row.board.end());
+        Program program(all);
+        const auto ready = program.ready();
+        // It has said what it says at its start.
+        REQUIRE(run({"ctl", control, "advance", "5"}).code == 0);
+        Peer host(std::string((ready.contains("host") ? ready["host"] : ready)["path"]));
+        host.say(row.ask);
+        CHECK(host.lines().next() == row.answer);
+        CHECK(program.stop() == 0);
+    }
 }
 
 }  // namespace

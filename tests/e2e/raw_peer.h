@@ -22,6 +22,12 @@ class RawPeer {
         cfmakeraw(&settings);
         REQUIRE(tcsetattr(fd_.get(), TCSANOW, &settings) == 0);
     }
+    void set_speed(speed_t speed) const {
+        termios settings{};
+        REQUIRE(tcgetattr(fd_.get(), &settings) == 0);
+        REQUIRE(cfsetspeed(&settings, speed) == 0);
+        REQUIRE(tcsetattr(fd_.get(), TCSANOW, &settings) == 0);
+    }
     void say(std::string_view bytes) const {
         REQUIRE(write(fd_.get(), bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()));
     }

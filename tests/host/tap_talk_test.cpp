@@ -193,5 +193,22 @@ TEST_CASE("the log of a tap: time, direction, bytes, and words where they are as
     CHECK(logged({false, false}) == "     0.000000  warning         disk full\n");
 }
 
+TEST_CASE("the log of a tap calls the other end a host until it is known for a screen") {
+    const TemporaryFolder folder;
+    const std::string file = folder.file("log");
+    const link::UniqueFd fd = test::open_new(file);
+    TextOutput out(fd.get());
+    TapLog log(out, {true, false});
+    log.on_received(SimTime{0}, board::Channel::main, "N1 M105*38", board::Verdict::accepted);
+    log.on_sent(SimTime{0}, board::Channel::main, "ok T:22.00 /0.00 @:0");
+    log.on_sent(SimTime{0}, board::Channel::main, "N-0 L21 P0 S0*63");
+    log.on_received(SimTime{0}, board::Channel::main, "M27", board::Verdict::accepted);
+    CHECK(test::read_file(file) ==
+          "     0.000000  host → board    N1 M105*38\n"
+          "     0.000000  board → host    ok T:22.00 /0.00 @:0\n"
+          "     0.000000  board → screen  N-0 L21 P0 S0*63\n"
+          "     0.000000  screen → board  M27\n");
+}
+
 }  // namespace
 }  // namespace fauxboard::host

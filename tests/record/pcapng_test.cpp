@@ -79,7 +79,7 @@ TEST_CASE("a capture begins with a section and the two interfaces of a serial li
         CHECK(option_of(blocks[i].body, 8, 9) == "\x06");
     }
     CHECK(option_of(blocks[1].body, 8, 2) == "board");
-    CHECK(option_of(blocks[2].body, 8, 2) == "screen");
+    CHECK(option_of(blocks[2].body, 8, 2) == "other end");
 }
 
 TEST_CASE("a packet keeps bytes, direction and time to the microsecond") {

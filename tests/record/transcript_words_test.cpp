@@ -112,6 +112,33 @@ TEST_CASE("datagrams: requests in words, pieces of files as what they bring") {
     CHECK(again->bytes == damaged.entry.bytes);
 }
 
+TEST_CASE("the other end has the name that its talk gives it") {
+    protocol::PeerName peer;
+    const auto said = [&](const std::string& text) {
+        JudgedLine line = judged(text);
+        line.peer = peer.at(*line.decoded);
+        return text_line(line);
+    };
+    CHECK(said("N1 M105*38").find(" host → board ") != std::string::npos);
+    CHECK(said("ok T:22.00 /0.00 @:0").find(" board → host ") != std::string::npos);
+    CHECK(said("G0 Z10 F300 I0").find(" host → board ") != std::string::npos);
+    CHECK(said("N-0 M105*10").find(" screen → board ") != std::string::npos);
+    CHECK(said("M27").find(" screen → board ") != std::string::npos);
+    for (const char* line : {"N-0 L21 P0 S0*63", "log Geeetech LCD OK"}) {
+        peer = {};
+        CHECK(said(line).find("screen") != std::string::npos);
+    }
+}
+
+TEST_CASE("the USB side's answers have words; what is meant for people only is no mistake") {
+    CHECK(words(R"({"t": 1, "from": "usb", "line": "ok T:22.0 /0.0 B:22.0 /0.0 @:0 B@:0"})")
+              .find("temperatures: nozzle 22.0 °C (target 0.0 °C)") != std::string::npos);
+    CHECK(words(R"({"t": 1, "from": "usb", "line": "SD printing byte 3/4500"})").find("of 4500 bytes") !=
+          std::string::npos);
+    CHECK(words(R"({"t": 1, "from": "usb", "line": "mcu_init"})") ==
+          "         1.000000  board → host    mcu_init\n");
+}
+
 TEST_CASE("timed lines as JSON are a recording again") {
     const JudgedLine line = judged(R"({"t": 16.451778, "from": "screen", "line": "N-0 M23 \u00e4*1"})");
     std::istringstream in(json_line(line));

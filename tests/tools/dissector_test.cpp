@@ -94,7 +94,7 @@ TEST_CASE("tshark opens a capture without the dissector: serial line, direction,
     CHECK(rows[0] ==
           "rtacser:data|board|1700000000.001234000|0x00000002|4e2d30204c3231205030205330"
           "2a36330d0a");
-    CHECK(rows[1] == "rtacser:data|screen|1700000000.002468000|0x00000001|4d32370d0a");
+    CHECK(rows[1] == "rtacser:data|other end|1700000000.002468000|0x00000001|4d32370d0a");
 }
 
 TEST_CASE("the dissector names code and fields") {
@@ -119,6 +119,41 @@ TEST_CASE("the dissector names code and fields") {
     CHECK(rows[2].find("0.30 mm") != std::string::npos);
     CHECK(rows[3].starts_with("screen → board|log|"));
     CHECK(rows[4].starts_with("board → screen|L99||missing|||unknown \"L99 X1\""));
+}
+
+TEST_CASE("towards a host it says so, and what boards answer hosts has fields to plot") {
+    if (!tshark_is_here()) {
+        return;
+    }
+    const auto said = [](Direction direction, const std::string& line, const std::string& fields) {
+        return tshark({{direction, line + "\n"}},
+                      "-e _ws.col.Source -e _ws.col.Destination -e fauxboard.direction " + fields, true)
+            .at(0);
+    };
+    // By the keys on the wire, and by the names that they are shown with.
+    CHECK(said(Direction::to_screen, "ok T:22.50 /200.00 B:23.00 /60.00 @:127 B@:0",
+               "-e fauxboard.board.ok_t.nozzle -e fauxboard.board.ok_t.nozzle_target -e "
+               "fauxboard.board.ok_t.b -e fauxboard.board.ok_t.bed -e fauxboard.board.ok_t.bed_target -e "
+               "fauxboard.board.ok_t.nozzle_power") == "board|host|board → host|22.5|200|23|23|60|127");
+    CHECK(said(Direction::to_screen, " T:150.12 /200.00 B:22.00 /0.00 @:127 B@:0 W:?",
+               "-e fauxboard.board.t.nozzle -e fauxboard.board.t.w") == "board|host|board → host|150.12|?");
+    CHECK(said(Direction::to_screen, "ok B:20/0 E1:21/0 X:0.000 Y:0.000 Z:14.500 F:0/0 D:3860/241025/0 T:100",
+               "-e fauxboard.board.ok_b.bed -e fauxboard.board.ok_b.z -e fauxboard.board.ok_b.d -e "
+               "fauxboard.board.ok_b.at -e fauxboard.board.ok_b.of -e fauxboard.board.ok_b.halted -e "
+               "fauxboard.board.ok_b.print_time") ==
+          "board|host|board → host|20|14.5|3860|3860|241025|0|100");
+    CHECK(said(Direction::to_screen, "SD printing byte 120/4500",
+               "-e fauxboard.board.sd_printing_byte.at -e fauxboard.board.sd_printing_byte.of") ==
+          "board|host|board → host|120|4500");
+    CHECK(said(Direction::to_screen, "ok C: X:1.000000 Y:0.000000 Z:14.500000 E:0.000000",
+               "-e fauxboard.board.ok_c.z") == "board|host|board → host|14.5");
+    CHECK(said(Direction::to_board, "N7 M104 S200*101",
+               "-e fauxboard.host.m104.s -e fauxboard.host.m104.target") ==
+          "host|board|host → board|200|200");
+    // As mariner moves the platform.
+    CHECK(said(Direction::to_board, "G0 Z10 F300 I0",
+               "-e fauxboard.host.g0.z -e fauxboard.host.g0.i -e fauxboard.unknown") ==
+          "host|board|host → board|10|0|");
 }
 
 /// The names that the dissector should find: what the program itself finds.
