@@ -130,8 +130,7 @@ bool HostCommands::write(std::string_view command, SimTime now) {
     if (!file.runs_too) {
         code_ = nullptr;  // it is a text now, and over at once
     }
-    file.unwritten.append(command).append("
-");  // as Marlin ends them
+    file.unwritten.append(command).append("\r\n");  // as Marlin ends them
     if (file.unwritten.size() >= block_bytes) {
         flush(now);
     }
