@@ -131,11 +131,11 @@ TEST_CASE("run: a log of its own doings, apart from the talk") {
     std::vector<nlohmann::json> told;
     for (std::string text; std::getline(in, text);) {
         told.push_back(nlohmann::json::parse(text));
-        CHECK(told.back().value("text", "").find("N-0 L1 ") == std::string::npos);
+        CHECK(told.back().value("text", std::string()).find("N-0 L1 ") == std::string::npos);
     }
     const auto find = [&](std::string_view part) {
         const auto hit = std::find_if(told.begin(), told.end(), [&](const nlohmann::json& one) {
-            return contains(one.value("text", ""), part);
+            return one.value("text", std::string()).find(part) != std::string::npos;
         });
         return hit == told.end() ? nlohmann::json::object() : *hit;
     };

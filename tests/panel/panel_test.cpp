@@ -36,7 +36,7 @@ struct Bench {
     Bench()
         : board(host::load_profile_by_name("geeetech-a30t"), {}, {false, 1, &observers}),
           live(board, line, clock, &observers),
-          target({loop, board, live, clock, line, nullptr, [this] { quit = true; }, 1, nullptr}),
+          target({loop, board, live, clock, line, nullptr, [this] { quit = true; }, 1, nullptr, nullptr, {}}),
           panel(loop, "127.0.0.1:0", {{"left", target}}) {
         observers.add(target);
         line.open(live);
