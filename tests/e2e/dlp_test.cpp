@@ -178,7 +178,14 @@ TEST_CASE("the MKS DLP board: what cannot be is said") {
                     {{"run", "--profile", "mks-dlp", "--eeprom", folder.file("short")},
                      bad_input,
                      "the chip has 2048 bytes, and this file 10"},
+                    {{"run", "--profile", "mks-dlp", "--fault", "garble"},
+                     bad_input,
+                     "this board has no line that it could spoil"},
                     {{"run", "--panel", folder.file("shown")}, bad_input, "has no UV panel"}});
+    // And nothing is said of lines that it does not have.
+    const Result brief = run({"run", "-q", "--profile", "mks-dlp", "--duration", "1s", "--speed", "max"});
+    CHECK(brief.code == 0);
+    CHECK(brief.errors.ends_with("\nAfter 1.000 s.\n"));
 }
 
 }  // namespace
