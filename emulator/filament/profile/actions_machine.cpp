@@ -79,6 +79,9 @@ void motion_move(Printer& p, ActionContext& c, Args a) {
     request.feed_mm_min = given(a[4]);
     request.force_relative = flag(a[5]);
     request.limits = a[6].none() || flag(a[6]);
+    if (flag(a[7]) && request.values[3]) {
+        request.values[3] = -*request.values[3];
+    }
     switch (p.motion.move(request, p.now(), p.events)) {
         case MoveOutcome::accepted:
             break;
@@ -179,7 +182,8 @@ constexpr std::array move_args{
     ArgInfo{"e", number, false, "mm", "mm"},
     ArgInfo{"f", number, false, "feed, mm/min; stays in force", "mm/min"},
     ArgInfo{"relative", boolean, false, "by these distances, whatever G90 and G91 say"},
-    ArgInfo{"limits", boolean, false, "keep inside the build volume (default)"}};
+    ArgInfo{"limits", boolean, false, "keep inside the build volume (default)"},
+    ArgInfo{"back", boolean, false, "e is pulled back: what is written for it counts with its sign turned"}};
 constexpr std::array position_args{
     ArgInfo{"x", number, false, "mm", "mm"}, ArgInfo{"y", number, false, "mm", "mm"},
     ArgInfo{"z", number, false, "mm", "mm"}, ArgInfo{"e", number, false, "mm", "mm"}};
