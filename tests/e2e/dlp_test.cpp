@@ -179,7 +179,7 @@ TEST_CASE("the MKS DLP board: what cannot be is said") {
                      bad_input,
                      "the chip has 2048 bytes, and this file 10"},
                     {{"run", "--profile", "mks-dlp", "--fault", "garble"},
-                     bad_input,
+                     usage,
                      "this board has no line that it could spoil"},
                     {{"run", "--panel", folder.file("shown")}, bad_input, "has no UV panel"}});
     // And nothing is said of lines that it does not have.
