@@ -101,12 +101,15 @@ int Motion::take_lost_rounds() {
 }
 
 MoveOutcome Motion::move(const MoveRequest& request, SimTime now, EventQueue& events) {
-    if (request.feed_mm_min && std::isfinite(*request.feed_mm_min) && *request.feed_mm_min > 0) {
-        modal_feed_ = std::min(*request.feed_mm_min / 60.0, far_mm);
-    }
     ProcedureStep step;
     step.kind = Kind::to;
     step.feed_mm_s = modal_feed_;
+    if (request.feed_mm_min && std::isfinite(*request.feed_mm_min) && *request.feed_mm_min > 0) {
+        step.feed_mm_s = std::min(*request.feed_mm_min / 60.0, far_mm);
+    }
+    if (!request.feed_passes) {
+        modal_feed_ = step.feed_mm_s;
+    }
     bool any = false;
     MoveOutcome outcome = MoveOutcome::accepted;
     for (std::size_t i = 0; i < axis_count; ++i) {

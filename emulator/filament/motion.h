@@ -19,6 +19,7 @@ namespace fauxboard::filament {
 struct MoveRequest {
     AxisTargets values{};               ///< mm, absolute or relative as G90/G91 say
     std::optional<double> feed_mm_min;  ///< F; stays in force for later moves
+    bool feed_passes = false;           ///< it does not
     bool force_relative = false;        ///< move by `values` whatever G90/G91 say
     bool limits = true;                 ///< keep inside the build volume (software end stops)
 };

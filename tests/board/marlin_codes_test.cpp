@@ -129,6 +129,13 @@ TEST_CASE_FIXTURE(Marlin,
     CHECK(number("position.e") == doctest::Approx(-125));
     CHECK(has(told("M701", 20), paused));
     CHECK(number("position.e") == doctest::Approx(-95));
+    // The feed of a host's moves is still its own.
+    say("M876 S1");
+    home();
+    say("G1 X1 F6000", Channel::main, 1);
+    say("M702 U5", Channel::main, 20);
+    say("G1 X101", Channel::main, 1.5);
+    CHECK(number("motion.busy") == 0);
 }
 
 TEST_CASE_FIXTURE(Marlin, "Marlin: M928 writes what comes, and carries it out as well") {
