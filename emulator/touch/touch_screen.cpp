@@ -138,7 +138,9 @@ TouchScreen::Touched TouchScreen::touch(SimTime now, const machine::Machine& mac
         return {fmt::format("There is no control \"{}\" on {}{}; it has {}.", name.substr(0, 60),
                             here.box ? "the box \"" + here.box->caption + "\"" : "the page " + here.page,
                             near.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", near),
-                            names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))),
+                            !names.empty()  ? fmt::format("{}", fmt::join(names, ", "))
+                            : layers_.cover ? "none: a touch anywhere lifts it"
+                                            : "none"),
                 now};
     }
     int x = control->at.x + control->at.width / 2;

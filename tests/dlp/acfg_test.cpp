@@ -115,6 +115,24 @@ TEST_CASE("settings files: what was written, what is in force, which lines were 
     CHECK(box_text(report.result) == "Parameter value is invalid");
 }
 
+TEST_CASE("settings files: one without end is read no further than any settings file goes") {
+    std::size_t given = 0;
+    Settings settings;
+    const AcfgReport report = read_acfg(
+        [&](char* out, std::size_t room) {
+            std::fill_n(out, room, '\n');
+            given += room;
+            return room;
+        },
+        settings, Firmware::v001);
+    CHECK(report.too_large);
+    CHECK(report.result == AcfgResult::invalid_value);
+    CHECK(report.line == acfg_most_bytes + 1);
+    CHECK(given < 2 * acfg_most_bytes);
+    std::string most(acfg_most_bytes - 1, '\n');
+    CHECK(read_acfg(most, settings, Firmware::v001).result == AcfgResult::ok);
+}
+
 TEST_CASE("settings files of 0.08: more names, other bounds") {
     Settings settings = default_settings(Firmware::v008);
     const AcfgReport report = read_acfg(
