@@ -47,21 +47,22 @@ constexpr FieldInfo l16[] = {
 constexpr FieldInfo l17[] = {integer("S", "result", {}, "reserved")};
 
 constexpr ValueName pages[] = {{26, "message page"}};
+// As the A30T's screen words them (profiles/screens), 6 to 9: a print of the SD card, of the PC.
 constexpr ValueName exceptions[] = {
     {0, "no filament"},
     {1, "SD card removed"},
-    {2, "resume the print?"},
+    {2, "resume the interrupted print?"},
     {3, "file not found"},
     {4, "hotend temperature abnormal"},
     {5, "bed temperature abnormal"},
-    {6, "hotend temperature abnormal, SD print stopped"},
-    {7, "bed temperature abnormal, SD print stopped"},
-    {8, "hotend temperature abnormal, stop the print on the PC"},
-    {9, "bed temperature abnormal, stop the print on the PC"},
-    {10, "file cannot be opened"},
-    {11, "3D Touch alarm"},
-    {12, "hotend too cold"},
-    {13, "not possible while printing"},
+    {6, "hotend temperature abnormal, print stopped"},
+    {7, "bed temperature abnormal, print stopped"},
+    {8, "hotend temperature abnormal, stop the print"},
+    {9, "bed temperature abnormal, stop the print"},
+    {10, "cannot open the file"},
+    {11, "3D Touch alarm: check and retry"},
+    {12, "hotend too cold to change filament"},
+    {13, "not available while printing"},
     {14, "stop the PID tuning?"},
     {15, "waiting for the user"},
 };

@@ -34,22 +34,29 @@ struct FleetArguments {
     LogOptions log;
 };
 
-/// Says of one board what a person has to know: with its name, warnings and errors only.
+/// Says of one board what a person has to know: with its name, warnings and errors unless asked for more.
 class Troubles final : public host::LiveObserver {
   public:
-    Troubles(host::TextOutput& err, std::string name) : err_(err), name_(std::move(name)) {}
+    Troubles(host::TextOutput& err, std::string name, host::LogLevel least)
+        : err_(err), name_(std::move(name)), least_(least) {}
     void on_received(host::SimTime, board::Channel, std::string_view, board::Verdict) override {}
     void on_sent(host::SimTime, board::Channel, std::string_view) override {}
     void on_notice(host::SimTime now, board::Level level, std::string_view text) override {
-        if (level >= board::Level::warning) {
+        if (host::log_level(level) >= least_) {
             err_.write(fmt::format("{}: {:.3f} s: {}\n", name_, machine::to_seconds(now), text));
         }
     }
-    void on_link(host::SimTime, link::LinkState, std::string_view) override {}
+    void on_link(host::SimTime now, link::LinkState, std::string_view why) override {
+        on_notice(now, board::Level::info, why);
+    }
+    void on_world(host::SimTime now, std::string_view words) override {
+        on_notice(now, board::Level::info, words);
+    }
 
   private:
     host::TextOutput& err_;
     std::string name_;
+    host::LogLevel least_;
 };
 
 /// All boards, in the order of their file.
@@ -103,7 +110,7 @@ class FleetRun {
     /// One board with those who look at it.
     struct Member {
         Member(FleetRun& run, const FleetBoard& board, std::shared_ptr<const behaviour::Profile> profile)
-            : troubles(run.err_, board.name),
+            : troubles(run.err_, board.name, run.arguments_.log.stderr_level()),
               unit(run.loop_, board.options, std::move(profile), nullptr, observers) {
             if (!run.arguments_.quiet) observers.add(troubles);
             if (run.log_file_) {

@@ -28,6 +28,10 @@ struct LogOptions {
     /// Whether anything would get into the file.
     bool wanted() const { return !file.empty() && level != host::LogLevel::off; }
     host::LogLevel file_level() const { return level.value_or(host::LogLevel::info); }
+    /// Of a command that tells warnings where it is not asked.
+    host::LogLevel stderr_level() const {
+        return file.empty() ? level.value_or(host::LogLevel::warning) : host::LogLevel::warning;
+    }
     host::LogFile::Options for_file() const;
 };
 

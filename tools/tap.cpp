@@ -35,7 +35,6 @@ using host::TapSide;
 using machine::SimTime;
 
 constexpr SimTime report_period{10'000'000};
-constexpr int most_ends = 8;  // that are told when there are too many
 
 struct TapOptions {
     std::vector<std::string> ends;
@@ -251,7 +250,8 @@ void declare(CLI::App& command, TapOptions& options) {
                     "Two ends, A and B: a device, auto, pty, pty=LINK, tcp:HOST:PORT (connects) or "
                     "tcp-listen:HOST:PORT")
         ->type_name("A B")
-        ->expected(0, most_ends);
+        ->required()
+        ->expected(-1);
     add_baud(command, options.baud, "Bits per second of serial ports")->capture_default_str();
     command
         .add_option_function<std::string>(

@@ -71,7 +71,8 @@ void Loader::load_head(ObjectReader& root) {
 
 /// {"M2999": "blow", "L30": {"title": "air", "fields": {"V": "VOC, ppm"}}}
 void Loader::load_words(const Json& node, const std::string& pointer) {
-    constexpr std::size_t longest = 64;
+    constexpr std::size_t longest = 64;  // of what is named
+    constexpr std::size_t most_words = 128;
     if (!node.is_object()) {
         findings_.add(pointer, found(node) + "; expected an object of codes and their words");
         return;
@@ -86,11 +87,11 @@ void Loader::load_words(const Json& node, const std::string& pointer) {
                 "expected the beginning of a line: a code, perhaps with parameters, of up to 64 characters");
         }
         if (value.is_string()) {
-            all.text(key, words.title, longest);
+            all.text(key, words.title, most_words);
         } else {
             ObjectReader one(value, at, findings_);
             one.required("title");
-            one.text("title", words.title, longest);
+            one.text("title", words.title, most_words);
             if (const Json* fields = one.get("fields")) {
                 ObjectReader names(*fields, one.pointer("fields"), findings_);
                 for (const auto& [letter, name] : fields->items()) {

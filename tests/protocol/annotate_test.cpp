@@ -56,7 +56,7 @@ TEST_CASE("what a board says, in words") {
     CHECK(board("L7 P4 4. Troubleshooting Guide") == "file list: entry 4, name \"4. Troubleshooting Guide\"");
     CHECK(board("L14  Layer 1/21") == "message: \"Layer 1/21\"");
     CHECK(board("L16 P0 15") == "restart: power-loss recovery, offer 15");
-    CHECK(board("L18 P26 S12") == "exception: message page, hotend too cold");
+    CHECK(board("L18 P26 S12") == "exception: message page, hotend too cold to change filament");
     CHECK(board("L24 P5 A0.15") == "settings: babystep, Z 0.15 mm");
     CHECK(board("L19 P2 SM:1 MS:16 HC:300") ==
           "closed-loop steppers: report, motor 1, microsteps 16, holding current 300 mA");

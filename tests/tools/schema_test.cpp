@@ -231,6 +231,8 @@ TEST_CASE("schema: bounds are those of the loader") {
         {"/line/unfinished_ms", -1},
         {"/transmit/tick_ms", 0.05},
         {"/identity/model", std::string(65, 'x')},
+        {"/words/M1", std::string(129, 'x')},
+        {"/words/L18 P26 S3/title", 5},
         {"/machine/board_fan_percent", 101},
         {"/machine/thermal/period_ms", 9},
         {"/machine/thermal/printed", "wrong"},
