@@ -77,7 +77,7 @@ struct Figure {
     Expression index;      ///< which of them, where there are several
     bool whole = true;     ///< fitted into the place, aspect kept; else each pixel `step` of the picture's
     int step = 1;
-    bool turned = false;   ///< rows of the picture become columns, from left to right
+    bool turned = false;  ///< rows of the picture become columns, from left to right
 };
 
 /// How a kind of control looks.
