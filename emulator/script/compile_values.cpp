@@ -79,7 +79,8 @@ std::span<const TriggerInfo> trigger_kinds() {
         TriggerInfo{"shows", "pattern", "a line of what the virtual screen shows matches",
                     Trigger::Kind::shows},
         TriggerInfo{"judged", "pattern",
-                    "the virtual screen took a line otherwise than it was meant, and the sentence that says so matches: "
+                    "the virtual screen took a line otherwise than it was meant, and the sentence that says "
+                    "so matches: "
                     "\"L7 P0 ...: cut: a name of ...\"; of all lines so far",
                     Trigger::Kind::judged},
     };
