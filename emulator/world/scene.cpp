@@ -1,6 +1,5 @@
 #include "emulator/world/scene.h"
 
-#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -17,32 +16,24 @@ Scene::Scene(std::shared_ptr<const script::Scenario> scenario)
 
 Scene::~Scene() = default;
 
-board::SimTime Scene::advance(board::SimTime now, board::Board& board, screen::Screen* screen) {
+void Scene::advance(board::SimTime now, board::Board& board, screen::Screen* screen) {
     now_ = now;
     board_ = &board;
     screen_ = screen;
-    acted_ = false;
-    if (again_ && *again_ <= now) {
-        again_.reset();
+    if (player_->done()) {
         player_ = std::make_unique<script::Player>(scenario_, 0);
     }
-    board::SimTime due = machine::never;
-    if (!player_->done()) {
-        due = player_->advance(now, board::SimTime{0}, *this);
+    due_ = player_->advance(now, board::SimTime{0}, *this);
+    if (player_->done()) {
+        due_ = now + rest;
     }
-    if (player_->done() && !again_) {
-        again_ = now + rest;
-    }
-    return again_ ? *again_ : std::max(due, now);
 }
 
 void Scene::visit(const std::function<void(board::Board&, board::SimTime)>& use) {
-    acted_ = true;
     use(*board_, now_);
 }
 
 screen::PressResult Scene::press(std::string_view path) {
-    acted_ = true;
     return screen_->press(path, now_);
 }
 

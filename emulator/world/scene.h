@@ -2,7 +2,6 @@
 
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string_view>
 
 #include "emulator/script/player.h"
@@ -16,11 +15,13 @@ class Scene final : private script::Stage {
     explicit Scene(std::shared_ptr<const script::Scenario> scenario);
     ~Scene() override;
 
-    /// Does what is due. Returns when it wants to be called next, if nothing passes before. To be called with
-    /// each time, and again when something was done().
-    board::SimTime advance(board::SimTime now, board::Board& board, screen::Screen* screen);
-    /// Whether the last advance() did something to the board or the screen.
-    bool acted() const { return acted_; }
+    /// Does what is due.
+    void advance(board::SimTime now, board::Board& board, screen::Screen* screen);
+    /// When advance() is to be called, unless something has passed before.
+    board::SimTime due() const { return due_; }
+    bool is_due(board::SimTime now) const {
+        return due_ <= now || (!player_->done() && player_->wants_turn());
+    }
     /// To be told what passes on the board.
     board::Observer& observer() { return *player_; }
 
@@ -34,11 +35,10 @@ class Scene final : private script::Stage {
 
     std::shared_ptr<const script::Scenario> scenario_;
     std::unique_ptr<script::Player> player_;
-    std::optional<board::SimTime> again_;  ///< when it begins anew
+    board::SimTime due_{0};
     board::SimTime now_{0};
     board::Board* board_ = nullptr;     ///< while advance() lasts
     screen::Screen* screen_ = nullptr;  ///< the same
-    bool acted_ = false;
 };
 
 }  // namespace fauxboard::world

@@ -221,14 +221,6 @@ void World::take_output() {
     note_place();
 }
 
-SimTime World::play_scene() {
-    const SimTime due = scene_->advance(now_, *board_, screen_ ? &*screen_ : nullptr);
-    if (scene_->acted()) {
-        new_job();  // it may have been sought in
-    }
-    return due;
-}
-
 /// Lets the board and the screen come to that moment, each at its own ones.
 void World::run_to(SimTime time) {
     SimTime last = now_;
@@ -244,11 +236,13 @@ void World::run_to(SimTime time) {
         }
         SimTime next = std::min(due, time);
         if (scene_) {
-            next = std::min(next, std::max(play_scene(), now_ + SimTime{1}));
-            if (scene_->acted()) {
+            if (scene_->is_due(now_)) {
+                scene_->advance(now_, *board_, screen_ ? &*screen_ : nullptr);
+                new_job();  // it may have been sought in
                 take_output();
                 continue;
             }
+            next = std::min(next, scene_->due());
         }
         if (screen_) {
             const SimTime screen_due = screen_->advance(now_);

@@ -96,7 +96,6 @@ class World final : private board::Observer {
     void ask(board::Channel channel);
     void walk();
     void proof_print();
-    SimTime play_scene();
     void note_place();
 
     const Cast& cast_;
