@@ -211,7 +211,7 @@ TEST_CASE("run --spi: what cannot be is said") {
         {{{"run", "--spi", folder.file("wires")}, bad_input, "has no UV panel: leave --panel and --spi out"},
          {{"run", "--profile", "mks-dlp", "--spi", folder.file("none/wires")},
           bad_input,
-          "cannot be written to"},
+          "cannot be written (No such file or directory)"},
          {{"run", "--profile", "mks-dlp", "--spi", "nowhere.invalid:1"}, no_port, "nowhere.invalid"}});
 }
 

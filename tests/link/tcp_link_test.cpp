@@ -1,6 +1,7 @@
 #include <arpa/inet.h>
 #include <doctest/doctest.h>
 #include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <sys/socket.h>
 
 #include "emulator/link/host_port.h"
@@ -63,6 +64,41 @@ struct Listening {
 };
 
 }  // namespace
+
+/// This process's end of the connection of that client.
+int other_end(const UniqueFd& client) {
+    sockaddr_in own{};
+    socklen_t size = sizeof own;
+    REQUIRE(::getsockname(client.get(), reinterpret_cast<sockaddr*>(&own), &size) == 0);
+    for (int fd = 3; fd < 1024; ++fd) {
+        sockaddr_in peer{};
+        size = sizeof peer;
+        if (::getpeername(fd, reinterpret_cast<sockaddr*>(&peer), &size) == 0 &&
+            peer.sin_port == own.sin_port) {
+            return fd;
+        }
+    }
+    return -1;
+}
+
+int option(int fd, int level, int name) {
+    int value = -1;
+    socklen_t size = sizeof value;
+    REQUIRE(::getsockopt(fd, level, name, &value, &size) == 0);
+    return value;
+}
+
+TEST_CASE("tcp: a peer that vanishes without a word is noticed in time") {
+    Listening listening;
+    REQUIRE(listening.until_states("w"));
+    const UniqueFd client = listening.client_up();
+    const int fd = other_end(client);
+    CHECK(option(fd, SOL_SOCKET, SO_KEEPALIVE) == 1);
+    CHECK(option(fd, IPPROTO_TCP, TCP_KEEPIDLE) +
+              option(fd, IPPROTO_TCP, TCP_KEEPINTVL) * option(fd, IPPROTO_TCP, TCP_KEEPCNT) ==
+          35);
+    CHECK(option(fd, IPPROTO_TCP, TCP_USER_TIMEOUT) == 35'000);
+}
 
 TEST_CASE("tcp: addresses") {
     CHECK(parse_host_port("4000").host == "127.0.0.1");

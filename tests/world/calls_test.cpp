@@ -154,6 +154,18 @@ TEST_CASE("every call of the system fails once and for good, and nothing worse c
     CHECK(runs > 200);
 }
 
+TEST_CASE("an upload is on the disk for certain before it has its name, and is acknowledged after that" *
+          doctest::skip(sanitized)) {
+    ShortLife life(Life::uploaded);
+    CHECK(life.run({"fsync", EIO, 1000, false}).acknowledged);
+    for (const char* call : {"fsync", "renameat"}) {
+        const LifeEnd end = life.run({call, EIO, 1, false});
+        CHECK(end.happened);
+        CHECK_FALSE(end.acknowledged);
+        CHECK(end.torn == "");
+    }
+}
+
 // FAUXBOARD_ALL_CALLS=1 build/test_world -tc="*single call*" takes an hour. Memory is asked for a hundred
 // thousand times in a life: of these each of the first thirty, and then each that is 5 % further.
 TEST_CASE("every single call of the system in every life" *

@@ -215,6 +215,7 @@ LifeEnd ShortLife::run(const FailingCall& failing) {
     end.said.resize(4096);
     const ssize_t size = ::pread(errors.get(), end.said.data(), end.said.size(), 0);
     end.said.resize(static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
+    end.acknowledged = acknowledged_;
     end.torn = torn_file();
     return end;
 }

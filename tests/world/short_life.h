@@ -36,9 +36,10 @@ struct FailingCall {
 
 struct LifeEnd {
     int code = 0;
-    bool happened = false;  ///< there was such a call at all
-    std::string said;       ///< the beginning of its stderr
-    std::string torn;       ///< a file that is neither as it was nor as it is to be, and why
+    bool happened = false;      ///< there was such a call at all
+    std::string said;           ///< the beginning of its stderr
+    bool acknowledged = false;  ///< the upload, as saved
+    std::string torn;           ///< a file that is neither as it was nor as it is to be, and why
 };
 
 class ShortLife {
