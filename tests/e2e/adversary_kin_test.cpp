@@ -136,7 +136,7 @@ TEST_CASE("a page or a fleet that others can reach is warned of as well") {
           std::pair{"--tcp", "=[::]:0"}, std::pair{"--host-tcp", "=0.0.0.0:0"}}) {
         Args args = board;
         args.push_back(std::string(option) + value);
-        CAPTURE(option);
+        CAPTURE(args.back());
         CHECK(contains(run(args).errors, warning));
     }
     put(folder.file("fleet.json"), R"({"boards": [{"profile": "geeetech-a30t", "tcp": "0.0.0.0:0"}]})");
