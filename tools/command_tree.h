@@ -41,8 +41,8 @@ std::vector<DeclaredOption> declared_options(const CLI::App& command);
 /// The program, its commands and theirs, each before its own.
 std::vector<DeclaredCommand> declared_commands(const CLI::App& app);
 
-/// A sentence about the first word of a command line that is no command, or no option where it stands, with the
-/// nearest that is one; empty when there is none such. `words` are without the program's name.
+/// A sentence about the first word of a command line that is no command, or no option where it stands, with
+/// the nearest that is one; empty when there is none such. `words` are without the program's name.
 std::string unknown_word(const CLI::App& app, const std::vector<std::string>& words);
 
 }  // namespace fauxboard::tools

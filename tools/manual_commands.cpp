@@ -45,15 +45,14 @@ ExitCode manual(const CLI::App& app, const std::string& name, const std::string&
 }  // namespace
 
 void add_manual(CLI::App& app, ExitCode& exit) {
-    CLI::App* pages =
-        app.add_subcommand("manual", "A manual page in roff: fauxboard manual run | man -l -");
+    CLI::App* pages = app.add_subcommand("manual", "A manual page in roff: fauxboard manual run | man -l -");
     const auto name = std::make_shared<std::string>();
     const auto folder = std::make_shared<std::string>();
     CLI::Option* command =
         pages->add_option("command", *name, "The command; fauxboard itself when none is named")
             ->check([&app](const std::string& text) {
                 return find_command(app, text) != nullptr ? std::string()
-                                                                    : "there is no command '" + text + "'";
+                                                          : "there is no command '" + text + "'";
             });
     pages->add_option("--all", *folder, "Write every page into this folder")
         ->type_name("DIR")

@@ -43,7 +43,8 @@ constexpr Template templates[] = {
   }
 }
 )",
-     "fauxboard run --profile {0}, and change it while it runs; `fauxboard describe` lists all that it can say"},
+     "fauxboard run --profile {0}, and change it while it runs; `fauxboard describe` lists all that it can "
+     "say"},
     {"screen",
      R"({
   "$schema": "@SCHEMA@/screen.schema.json",
@@ -129,7 +130,8 @@ ExitCode create(const std::string& kind, const std::string& name) {
     if (std::fclose(out) != 0 || !written) {
         return complain("new", ExitCode::bad_input, file + ": " + std::strerror(errno));
     }
-    print(fmt::format("{}\n  fauxboard check {}\n  {}\n", file, file, fmt::format(fmt::runtime(hit->next), file)));
+    print(fmt::format("{}\n  fauxboard check {}\n  {}\n", file, file,
+                      fmt::format(fmt::runtime(hit->next), file)));
     return ExitCode::ok;
 }
 

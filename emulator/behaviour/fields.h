@@ -24,7 +24,7 @@ struct Field {
     std::string_view help;
     Value (*get)(const machine::Machine&);         ///< nothing on a machine of another kind
     void (*set)(machine::Machine&, const Value&);  ///< null: read only
-    bool secret = false;  ///< left out of what is made to be shared
+    bool secret = false;                           ///< left out of what is made to be shared
 };
 
 /// Every field in the order of the reference: those of all machines, then each kind's. Paths are unique.

@@ -39,13 +39,15 @@ Recorder::Recorder(std::string file, OnTrouble on_trouble)
 void Recorder::on_received(SimTime now, board::Channel channel, std::string_view line, board::Verdict) {
     // What came as a datagram is kept as one.
     if (channel != board::Channel::network) {
-        write(now, record::recording_line(now, board::other_end(channel), "line", protocol::mask_secrets(line)));
+        write(now,
+              record::recording_line(now, board::other_end(channel), "line", protocol::mask_secrets(line)));
     }
 }
 
 void Recorder::on_sent(SimTime now, board::Channel channel, std::string_view line) {
     if (channel != board::Channel::network) {
-        write(now, record::recording_line(now, board::own_end(channel), "line", protocol::mask_secrets(line)));
+        write(now,
+              record::recording_line(now, board::own_end(channel), "line", protocol::mask_secrets(line)));
     }
 }
 
@@ -57,8 +59,8 @@ void Recorder::on_datagram(SimTime now, std::uint64_t peer, bool to_board, std::
     using From = record::RecordedLine::From;
     // Longer ones are neither pieces of files nor requests, and would not fit into a line of a recording.
     const std::string_view kept = bytes.substr(0, max_datagram);
-    write(now,
-          record::recording_line({now, to_board ? From::network : From::module, protocol::mask_secrets(kept), peer}));
+    write(now, record::recording_line(
+                   {now, to_board ? From::network : From::module, protocol::mask_secrets(kept), peer}));
 }
 
 void Recorder::write(SimTime now, const std::string& text) {

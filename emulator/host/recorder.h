@@ -17,8 +17,9 @@ class Recorder final : public LiveObserver {
     /// Told once, when the recording had to end early: a full disk ends the recording, not the board.
     using OnTrouble = std::function<void(SimTime now, std::string_view sentence)>;
 
-    /// Creates or empties `file`, or writes into a pipe that somebody reads. Throws link::HostError. What a pipe's
-    /// reader does not take in time waits here, within max_waiting; the recording ends when it is more.
+    /// Creates or empties `file`, or writes into a pipe that somebody reads. Throws link::HostError. What a
+    /// pipe's reader does not take in time waits here, within max_waiting; the recording ends when it is
+    /// more.
     explicit Recorder(std::string file, OnTrouble on_trouble);
 
     void on_received(SimTime now, board::Channel channel, std::string_view line,
