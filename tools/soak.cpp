@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -10,6 +11,7 @@
 
 #include "emulator/host/profile_files.h"
 #include "emulator/host/screen_files.h"
+#include "emulator/host/script_files.h"
 #include "emulator/world/invariants.h"
 #include "emulator/world/play.h"
 #include "tools/option_values.h"
@@ -24,7 +26,10 @@ constexpr double seconds_a_year = 365.25 * 24 * 3600;
 struct SoakOptions {
     std::string profile;
     std::string screen;
+    std::string scenario;
     double years = 1;
+    double seconds = 0;        ///< by the clock on the wall; 0: as long as it takes
+    std::uint64_t worlds = 0;  ///< 0: as many as the years take
     std::uint64_t seed = 1;
     std::uint64_t steps = 60;
     std::vector<std::uint64_t> only;
@@ -66,6 +71,19 @@ class Minutes final : public board::Observer {
     }
 };
 
+world::Cast cast_of(const SoakOptions& options) {
+    if (options.scenario.empty()) {
+        auto screen = options.screen.empty() ? nullptr : host::load_screen_by_name(options.screen);
+        return world::make_cast(host::load_profile_by_name(options.profile), std::move(screen));
+    }
+    const behaviour::SourceText source = host::find_script(options.scenario);
+    const std::string screen = options.screen.empty() ? script::read_head(source).screen : options.screen;
+    script::Cast cast;
+    cast.profile = host::load_profile_by_name(options.profile);
+    cast.screen = screen.empty() ? nullptr : host::load_screen_by_name(screen);
+    return world::make_cast(script::load_scenario(source, host::script_finder(), cast));
+}
+
 ExitCode replay_one(const world::Cast& cast, const SoakOptions& options) {
     Minutes minutes;
     const world::Outcome outcome =
@@ -88,6 +106,7 @@ std::string json_of(const world::Soaked& soaked) {
         {"years", years(soaked.time)},
         {"requests", soaked.requests},
         {"promises", world::invariants().size()},
+        {"digest", fmt::format("{:016x}", soaked.digest)},
         {"broken", soaked.broken.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(soaked.broken)}};
     return out.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) + "\n";
 }
@@ -98,17 +117,21 @@ ExitCode soak(const SoakOptions& options) {
         return ExitCode::ok;
     }
     try {
-        auto screen = options.screen.empty() ? nullptr : host::load_screen_by_name(options.screen);
-        const world::Cast cast = world::make_cast(host::load_profile_by_name(options.profile), screen);
+        const world::Cast cast = cast_of(options);
         if (!options.only.empty()) {
             return replay_one(cast, options);
         }
         Progress progress;
+        const auto over = [&options, begin = std::chrono::steady_clock::now()] {
+            const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
+            return options.seconds > 0 && passed.count() >= options.seconds;
+        };
         const world::Soaked soaked =
             world::soak(cast, options.seed, options.steps, [&](const world::Soaked& so_far) {
                 progress.say(fmt::format("{} worlds, {:.2f} of {} years, {} requests", so_far.seeds,
                                          years(so_far.time), options.years, so_far.requests));
-                return years(so_far.time) >= options.years;
+                const bool enough = options.worlds > 0 && so_far.seeds >= options.worlds;
+                return years(so_far.time) >= options.years || enough || over();
             });
         progress.clear();
         print(options.json ? json_of(soaked) : text_of(soaked));
@@ -132,9 +155,18 @@ void add_soak(CLI::App& app, ExitCode& exit) {
         ->add_option("--screen", options->screen,
                      "Who touches it: a screen of `fauxboard profiles`, or a file")
         ->type_name("NAME|FILE");
+    command
+        ->add_option("--scenario", options->scenario,
+                     "Played over and over beside all that happens; its own waits may end in vain")
+        ->type_name("NAME|FILE");
     command->add_option("--years", options->years, "Of virtual time, at least")
         ->check(CLI::Range(0.0, 1e6))
         ->capture_default_str();
+    command
+        ->add_option("--seconds", options->seconds,
+                     "Of real time, at most; the last world is played to its end")
+        ->check(CLI::Range(0.0, 1e6));
+    command->add_option("--worlds", options->worlds, "How many lives, at most")->check(CLI::PositiveNumber);
     add_seed(*command, options->seed, "Of the first world; the next has the next");
     command->add_option("--steps", options->steps, "Things that happen in one world")
         ->check(CLI::Range(1, 1'000'000))

@@ -215,7 +215,7 @@ void Board::carry_out(Channel channel, std::string_view command, bool acted) {
         host.settle();
         return;
     }
-    machine_->transfer.asker = machine::Transfer::usb_side;
+    machine_->transfer.asker = machine::Transfer::host_line(host.speaker);
     if (execute(channel, command, true)) {
         host.acknowledge();
     }

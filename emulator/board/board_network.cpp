@@ -32,7 +32,7 @@ bool may_be_request(std::string_view bytes) {
 
 void Board::receive_datagram(SimTime now, std::uint64_t peer, std::string_view bytes) {
     catch_up(now);
-    if (peer == Transfer::serial_line || peer == Transfer::usb_side || network_.full() || machine_->hung()) {
+    if (!Transfer::is_network(peer) || network_.full() || machine_->hung()) {
         ++counters_.requests_lost;
         return;
     }

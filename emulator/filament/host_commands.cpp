@@ -20,9 +20,9 @@ void HostCommands::power_on() {
     source_.arc.clear();
     source_.wake = SimTime{0};
     source_.moves = 0;
-    waits_ = yields_ = writing_ = runs_too_ = false;
+    waits_ = yields_ = false;
     wait_busy_ = never;
-    unwritten_.clear();
+    files_ = {};
     busy_s_ = config_.busy_s;
     busy_ = never;
     parsed_.clear();
@@ -48,7 +48,7 @@ bool HostCommands::ready(std::size_t from, std::string_view command, SimTime now
         return false;
     }
     waits_ = false;
-    if (writing(from) && !runs_too_) {
+    if (writing(from) && !files_[from].runs_too) {
         return true;  // it moves nothing, so it need not wait for what moves
     }
     parse(command);
@@ -111,12 +111,10 @@ void HostCommands::over() {
 }
 
 void HostCommands::follow_transfer() {
-    const bool open = transfer_.takes_from(Transfer::usb_side);
-    if (open != writing_) {
-        writing_ = open;
-        writer_ = speaker;
-        runs_too_ = open && line_.letter == 'M' && line_.code == log_to_file;
-        unwritten_.clear();
+    File& file = files_[speaker];
+    const bool open = transfer_.takes_from(Transfer::host_line(speaker));
+    if (open != file.open) {
+        file = {open, open && line_.letter == 'M' && line_.code == log_to_file, {}};
     }
 }
 
@@ -128,24 +126,26 @@ bool HostCommands::write(std::string_view command, SimTime now) {
         flush(now);
         return false;
     }
-    if (!runs_too_) {
+    File& file = files_[speaker];
+    if (!file.runs_too) {
         code_ = nullptr;  // it is a text now, and over at once
     }
-    unwritten_.append(command).append("\r\n");  // as Marlin ends them
-    if (unwritten_.size() >= block_bytes) {
+    file.unwritten.append(command).append("\r\n");  // as Marlin ends them
+    if (file.unwritten.size() >= block_bytes) {
         flush(now);
     }
-    return !runs_too_;
+    return !file.runs_too;
 }
 
 /// What is not on the disk yet goes there.
 void HostCommands::flush(SimTime now) {
-    if (transfer_.takes_from(Transfer::usb_side) &&
-        !transfer_.piece(now, Transfer::usb_side, true, transfer_.position(), unwritten_)) {
-        transfer_.close(now, Transfer::usb_side);
+    std::string& unwritten = files_[speaker].unwritten;
+    const Transfer::Peer peer = Transfer::host_line(speaker);
+    if (transfer_.takes_from(peer) && !transfer_.piece(now, peer, true, transfer_.position(), unwritten)) {
+        transfer_.close(now, peer);
         source_.on.events.raise(event("host.write_failed"));
     }
-    unwritten_.clear();
+    unwritten.clear();
 }
 
 void HostCommands::stream() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -17,7 +18,8 @@ namespace fauxboard::filament {
 /// every `ok` is kept at the printer's pace. Shares the modal state (units, feed) with a job, as in the
 /// firmware, and the planner: while a command waits for the planner, or runs, the job's file is not read.
 ///
-/// While a file that a host began (M28) is open, that line's commands are written to it instead, until M29.
+/// While a file that a line began (M28) is open, that line's commands are written to it instead, until M29;
+/// the other line's are carried out.
 class HostCommands final : public machine::HostSide {
   public:
     HostCommands(GcodeMachine& on, Transfer& transfer, const machine::HostConfig& config)
@@ -37,8 +39,7 @@ class HostCommands final : public machine::HostSide {
 
     /// Also when the file can no longer be written: a host that goes on sending it must not have it printed
     /// instead.
-    bool writing(std::size_t from) const override { return writing_ && writer_ == from; }
-    bool writing() const { return writing_; }
+    bool writing(std::size_t from) const override { return files_[from].open; }
     /// The command begun becomes a line of the file that is open. False when there is none, or it is the one
     /// that ends it: it is to be carried out then. Raises `host.write_failed`, once for a file, when the disk
     /// takes no more; nothing of the file will stand under its name then.
@@ -63,6 +64,12 @@ class HostCommands final : public machine::HostSide {
     /// What the board collects before it writes: a block of the card.
     static constexpr std::size_t block_bytes = 512;
 
+    struct File {
+        bool open = false;
+        bool runs_too = false;  ///< what is written (M928)
+        std::string unwritten;  ///< less than a block and a line
+    };
+
     void parse(std::string_view command);
     void flush(SimTime now);
     void stream();
@@ -78,10 +85,7 @@ class HostCommands final : public machine::HostSide {
     bool yields_ = false;              ///< after each move of its own the job may put in one
     bool heater_before_ = false;       ///< what was waited for already when it began
     bool user_before_ = false;
-    bool writing_ = false;
-    std::size_t writer_ = 0;
-    bool runs_too_ = false;  ///< what is written (M928)
-    std::string unwritten_;  ///< of the file; less than a block and a line
+    std::array<File, line_count> files_;  ///< that each line writes
     double busy_s_ = 0;
     SimTime busy_ = never;       ///< when the host is told next that it has to wait
     SimTime wait_busy_ = never;  ///< the same of a command that waits for the planner

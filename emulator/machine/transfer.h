@@ -38,7 +38,10 @@ class Transfer {
     };
 
     static constexpr Peer serial_line = 0;
-    static constexpr Peer usb_side = ~Peer{0};
+    /// The lines that are spoken as hosts speak are peers from here on, each one of its own.
+    static constexpr Peer first_host_line = ~Peer{0} - 7;
+    static constexpr Peer host_line(std::size_t number) { return first_host_line + number; }
+    static constexpr bool is_network(Peer peer) { return peer != serial_line && peer < first_host_line; }
     static constexpr std::size_t max_block = 1280;
     static constexpr SimTime idle_limit = std::chrono::seconds(30);
     static constexpr std::uint64_t max_bytes = 0x8000'0000;
@@ -95,7 +98,7 @@ class Transfer {
     Block last_block;  ///< of the request that is being carried out
 
     Mode mode() const { return mode_; }
-    bool by_network() const { return asker != serial_line && asker != usb_side; }
+    bool by_network() const { return is_network(asker); }
     /// Whether this one's upload is open, so that what it sends may be pieces.
     bool takes_from(Peer peer) const { return mode_ == Mode::upload && peer == owner_; }
     /// As it was asked for; stays when it is over.

@@ -21,7 +21,7 @@ constexpr std::size_t most_name_bytes = 200;
 /// Without progress for so long, the file does not get through.
 constexpr int most_tries = 100;
 /// Who sends: a number that no socket gives out.
-constexpr std::uint64_t sender = machine::Transfer::usb_side - 1;
+constexpr std::uint64_t sender = machine::Transfer::first_host_line - 1;
 
 /// Sends a file as slicers do: a piece, an answer. Past sockets and their faults, at one moment.
 class Sender {

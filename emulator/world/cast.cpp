@@ -6,7 +6,10 @@
 #include <iterator>
 #include <string_view>
 
+#include "emulator/behaviour/action_words.h"
 #include "emulator/board/board.h"
+#include "emulator/sliced/sample.h"
+#include "emulator/world/disk.h"
 #include "protocol/command.h"
 #include "protocol/framing.h"
 
@@ -106,6 +109,94 @@ bool knows(const behaviour::Profile& profile, Channel channel, const std::string
     return protocol::parse_command(code, command) && profile.rules_for(channel, command) != nullptr;
 }
 
+/// A fresh board with the files on its card, and a print that was begun by them.
+class Trial final : private board::Observer {
+  public:
+    Trial(const std::shared_ptr<const behaviour::Profile>& profile, Disk& disk, const std::string& file)
+        : board_(profile, services(disk), options()) {
+        board_.power_on(SimTime{0});
+        run_to(settling);
+        for (const std::string& words : words_to_print(file)) {
+            try {
+                for (const behaviour::ActionCall& call : behaviour::parse_action_words(words, *profile)) {
+                    board_.act(settling, call);
+                }
+            } catch (const behaviour::ActionWordsError&) {
+                continue;  // not of this machine
+            }
+        }
+        run_to(settling + to_begin);
+    }
+    /// What it came to; nothing when it did not begin or did not reach its end.
+    std::optional<Tally> ended() {
+        for (SimTime time = settling; watch_.begun() && !watch_.ended() && time < to_end; time += a_piece) {
+            run_to(time);
+        }
+        return watch_.ended();
+    }
+
+  private:
+    static constexpr SimTime to_begin = std::chrono::minutes(1);
+    static constexpr SimTime to_end = std::chrono::hours(6);
+    static constexpr SimTime a_piece = std::chrono::minutes(1);
+
+    static machine::Services services(Disk& disk) {
+        machine::Services out;
+        out.sd = &disk;
+        return out;
+    }
+    board::Options options() {
+        board::Options out;
+        out.observer = this;
+        return out;
+    }
+    void on_received(SimTime, Channel, std::string_view, board::Verdict) override {}
+    void on_sent(SimTime, Channel, std::string_view) override {}
+    void on_notice(SimTime, board::Level, std::string_view) override {}
+    void on_event(SimTime, machine::EventId event) override { watch_.see(event, board_.machine()); }
+    void run_to(SimTime end) {
+        for (SimTime due{0}; due <= end;) {
+            due = board_.advance(end);
+            board_.clear_output();
+        }
+    }
+
+    PrintWatch watch_;
+    board::Board board_;
+};
+
+/// Which of its files such a board prints: those that are called as one is that it prints to its end.
+void find_prints(Cast& cast) {
+    const auto ending = [](const std::string& path) { return path.substr(path.find('.')); };
+    Disk disk;
+    for (const auto& [path, content] : cast.files) {
+        disk.put(path, content);
+    }
+    for (const char* path : {"cold.gco", "part.cbddlp", "panel.cbddlp"}) {
+        if (const std::optional<Tally> tally = Trial(cast.profile, disk, path).ended(); tally) {
+            cast.proof = {path, *tally};
+            break;
+        }
+    }
+    for (const auto& [path, content] : cast.files) {
+        if (!cast.proof.file.empty() && ending(path) == ending(cast.proof.file)) {
+            cast.prints.push_back(path);
+        }
+    }
+}
+
+std::map<std::string, std::string> files() {
+    sliced::Sample of_panel;  // one board prints nothing that is not of its panel's size
+    of_panel.width = 1440;
+    of_panel.height = 2560;
+    return {{"part.gco", small_print(12)},
+            {"long.gco", small_print(400)},
+            {"empty.gco", ""},
+            {"cold.gco", cold_print()},
+            {"part.cbddlp", sliced::make_sample({})},
+            {"panel.cbddlp", sliced::make_sample(of_panel)}};
+}
+
 }  // namespace
 
 Cast make_cast(std::shared_ptr<const behaviour::Profile> profile,
@@ -128,9 +219,23 @@ Cast make_cast(std::shared_ptr<const behaviour::Profile> profile,
         cast.probes[static_cast<std::size_t>(channel)] =
             probes.empty() ? std::nullopt : std::optional(probes.front());
     }
-    cast.files = {{"part.gco", small_print(12)}, {"long.gco", small_print(400)}, {"empty.gco", ""}};
+    cast.files = files();
     cast.profile = std::move(profile);
+    find_prints(cast);
     cast.screen = std::move(screen);
+    return cast;
+}
+
+Cast make_cast(std::shared_ptr<const script::Scenario> scenario) {
+    Cast cast = make_cast(scenario->cast.profile, scenario->cast.screen);
+    if (scenario->card) {
+        for (const machine::BuiltInEntry& entry : *scenario->card) {
+            if (!entry.folder) {
+                cast.files[entry.name] = entry.content;
+            }
+        }
+    }
+    cast.scenario = std::move(scenario);
     return cast;
 }
 
@@ -169,6 +274,14 @@ std::string small_print(unsigned layers) {
         }
     }
     return out + "M104 S0\nM140 S0\nM84\n";
+}
+
+std::string cold_print() {
+    std::string out = "G21\nG90\nG28\nG1 Z5 F600\n";
+    for (int move = 0; move < 60; ++move) {
+        fmt::format_to(std::back_inserter(out), "G1 X{} Y{} F3000\n", 50 + move % 7, 50 + move % 11);
+    }
+    return out + "M84\n";
 }
 
 }  // namespace fauxboard::world

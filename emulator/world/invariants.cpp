@@ -114,8 +114,9 @@ std::string progress_stays(const View& view) {
     if (!job.active() || l.job_seen != l.job_number) {
         return {};
     }
-    return job.byte() >= l.job_byte ? ""
-                                    : fmt::format("the job went from byte {} to {}", l.job_byte, job.byte());
+    // Some boards throw away what was planned when they pause: such a job goes on where it was executed.
+    const std::uint64_t behind = l.paused ? std::min(l.job_byte, l.job_executed) : l.job_byte;
+    return job.byte() >= behind ? "" : fmt::format("the job went from byte {} to {}", l.job_byte, job.byte());
 }
 
 std::string place_is_within(const View& view) {
@@ -180,6 +181,25 @@ std::string moves_once(const View& view) {
                                asked[1], came[0], came[1]);
 }
 
+std::string told_of(const Tally& tally) {
+    return fmt::format("{} moves and {} layers", tally[0], tally[1]);
+}
+
+std::string prints_end(const View& view) {
+    const Ledger& l = view.ledger;
+    const std::optional<Tally>& ended = l.prints.ended();
+    if (!l.proof || ended == l.proof) {
+        return {};
+    }
+    return ended ? fmt::format("a print had {} instead of {}", told_of(*ended), told_of(*l.proof))
+                 : "a print did not come to its end";
+}
+
+std::string light_is_right(const View& view) {
+    const double broken = number_of(view.board.machine(), "watch.broken").value_or(0);
+    return broken == 0 || view.ledger.harmed ? "" : fmt::format("{} moments in which it was not so", broken);
+}
+
 std::string screen_lives(const View& view) {
     if (view.screen == nullptr || view.screen->counters().crashes == 0) {
         return {};
@@ -237,6 +257,13 @@ constexpr std::array table{
     Invariant{Moment::peace, "moves once",
               "A move is executed once, in its order: many short ones lead where their sum leads.",
               moves_once},
+    Invariant{Moment::peace, "prints end",
+              "Once all is well a print comes to its end, with each of its moves and layers.", prints_end},
+    Invariant{
+        Moment::step, "light is right",
+        "Of a printer that is not broken, the lamp never shines on a moving platform, at the end of a print "
+        "or on another picture than the file's, and the platform never goes into what it has printed.",
+        light_is_right},
     Invariant{Moment::step, "screen lives", "The screen never gets a line on which the real one would crash.",
               screen_lives},
 };

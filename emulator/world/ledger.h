@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "emulator/machine/sim_time.h"
+#include "emulator/world/print_watch.h"
 
 namespace fauxboard::world {
 
@@ -33,6 +34,14 @@ struct Ledger {
     std::uint64_t job_byte = 0;
     std::uint64_t job_number = 0;  ///< counts starts and deliberate jumps within a file
     std::uint64_t job_seen = 0;
+    std::uint64_t job_executed = 0;  ///< where it was last executed
+    bool paused = false;             ///< since the last step
+
+    PrintWatch prints;
+    std::optional<Tally> proof;  ///< what the print at the end should come to; nothing: there was none
+
+    bool harmed = false;  ///< some of the printer was broken since power-on
+    bool misset = false;  ///< settings were changed with which a printer may be unable to print
 
     // What one call did.
     std::size_t most_output = 0;

@@ -86,6 +86,7 @@ Soaked soak(const Cast& cast, std::uint64_t seed, std::uint64_t steps,
         ++soaked.seeds;
         soaked.requests += outcome.requests;
         soaked.time += outcome.time;
+        soaked.digest = soaked.digest * 31 + outcome.digest;
         if (!outcome.held()) {
             soaked.broken = report(cast, seed, shrink(cast, seed, whole(steps)));
             return soaked;

@@ -39,7 +39,8 @@ struct Soaked {
     std::uint64_t seeds = 0;
     std::uint64_t requests = 0;
     machine::SimTime time{0};
-    std::string broken;  ///< the report of the first one that did; empty: none
+    std::uint64_t digest = 0;  ///< of all of them: the same for the same seeds, whatever compiled the program
+    std::string broken;        ///< the report of the first one that did; empty: none
 };
 /// Plays worlds of `steps` steps from `seed` on until `enough` says so, or a promise is broken. Every
 /// sixteenth is played twice: the same seed must give the same bytes.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <iterator>
@@ -156,13 +157,9 @@ void network_asks(World& w, Dice& dice) {
 // -----------------------------------------------------------------------------------------------
 
 void job_begins(World& w, Dice& dice) {
-    static constexpr std::array<std::string_view, 3> files{"part.gco", "long.gco", "empty.gco"};
-    const std::string_view file = one_of(files, dice);
-    w.new_job();
-    w.tinker([&](machine::Machine& machine) {
-        machine.select_file(file);
-        machine.start_or_resume_job();
-    });
+    if (!w.cast().prints.empty()) {
+        w.print(one_of(w.cast().prints, dice));
+    }
 }
 
 void job_changes(World& w, Dice& dice) {
@@ -204,12 +201,45 @@ void something_is_done(World& w, Dice& dice) {
     }
 }
 
+/// Of whatever kind of machine; jobs, files and breakdowns are seen to by steps of their own.
+void something_is_wished(World& w, Dice& dice) {
+    static constexpr std::array<std::string_view, 9> others{
+        "job.", "transfer.", "code.", "fault.", "board.", "timer.", "machine.", "wifi.", "config."};
+    static constexpr std::array<std::string_view, 5> names{"part.gco", "part.cbddlp", "panel.cbddlp",
+                                                           "nozzle", "bed"};
+    const auto all = behaviour::actions();
+    const behaviour::ActionInfo& action = one_of(all, dice);
+    const bool is_other = std::any_of(others.begin(), others.end(), [&action](std::string_view begin) {
+        return action.name.starts_with(begin);
+    });
+    if (action.run == nullptr || is_other) {
+        return;
+    }
+    std::string args;
+    for (const behaviour::ArgInfo& arg : action.args) {
+        const std::string value =
+            arg.type == behaviour::ArgType::text
+                ? fmt::format("\"{}\"", one_of(names, dice))
+                : std::to_string(dice.below(arg.type == behaviour::ArgType::number ? 20 : 2));
+        if (arg.required || dice.below(2) == 0) {
+            args += fmt::format("{}\"{}\": {}", args.empty() ? "" : ", ", arg.name, value);
+        }
+    }
+    w.act(fmt::format("{{\"{}\": {{{}}}}}", action.name, args));
+}
+
 void value_changes(World& w, Dice& dice) {
     const auto all = behaviour::fields();
     const behaviour::Field& field = one_of(all, dice);
     const bool of_job = field.path.starts_with("job.");
     if (field.set == nullptr || of_job) {
         return;
+    }
+    // A switch that is taken for open when it is closed, a motor without a speed.
+    for (const std::string_view begin : {"setup.", "config.", "platform.", "print."}) {
+        if (field.path.starts_with(begin)) {
+            w.misset();
+        }
     }
     const double share = static_cast<double>(dice.below(101)) / 100;
     w.tinker([&](machine::Machine& machine) {
@@ -272,6 +302,7 @@ constexpr std::array table{
     StepKind{"job changes", 6, job_changes},
     StepKind{"job is taken up", 2, job_is_taken_up},
     StepKind{"something is done", 8, something_is_done},
+    StepKind{"something is wished", 8, something_is_wished},
     StepKind{"value changes", 5, value_changes},
     StepKind{"something breaks", 3, something_breaks},
     StepKind{"all is mended", 1, all_is_mended},

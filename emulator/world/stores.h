@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -25,6 +26,19 @@ class Eeprom final : public machine::EepromStore {
 
   private:
     std::optional<std::string> kept_;
+};
+
+/// The cells of an EEPROM chip in memory: each is written when it is told.
+class EepromCells final : public machine::EepromCells {
+  public:
+    explicit EepromCells(std::size_t size) : bytes_(size, '\xFF') {}
+    std::optional<std::string> load() override { return bytes_; }
+    void store(std::size_t address, std::string_view bytes) override {
+        bytes_.replace(std::min(address, bytes_.size()), bytes.size(), bytes);
+    }
+
+  private:
+    std::string bytes_;
 };
 
 /// The place of a job in memory, with the last ones that were kept. At a power cut the newest may not have

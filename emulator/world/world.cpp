@@ -18,10 +18,6 @@ namespace {
 
 using board::Channel;
 
-/// What a board that was given peace needs to come to rest: the longest wait, and the queues behind it.
-constexpr SimTime rest = std::chrono::hours(2);
-/// Within which a good request is answered then.
-constexpr SimTime patience = std::chrono::seconds(10);
 constexpr std::size_t most_places = 4096;
 
 bool is_acknowledgement(std::string_view line) {
@@ -39,7 +35,7 @@ unsigned checksum(std::string_view text) {
 }  // namespace
 
 World::World(const Cast& cast, std::uint64_t seed, board::Observer* listener)
-    : cast_(cast), seed_(seed), listener_(listener) {
+    : cast_(cast), seed_(seed), listener_(listener), eeprom_cells_(cast.profile->machine->eeprom_bytes) {
     for (const auto& [path, content] : cast.files) {
         disk_.put(path, content);
     }
@@ -56,13 +52,18 @@ void World::make_board() {
     machine::Services services;
     services.sd = &disk_;
     services.eeprom = &eeprom_;
+    services.eeprom_cells = &eeprom_cells_;
     services.job_place = &job_place_;
     board::Options options;
     options.seed = seed_;
     options.observer = this;
     board_ = std::make_unique<board::Board>(cast_.profile, services, options);
     board_->connect(Channel::host, true);
+    if (cast_.scenario) {
+        scene_.emplace(cast_.scenario);
+    }
     ledger_.lines_heard = ledger_.lines_said = 0;
+    ledger_.harmed = false;
     ledger_.before = now_;
     board_->power_on(now_);
     take_output();
@@ -74,6 +75,9 @@ void World::make_board() {
 void World::on_received(SimTime now, Channel channel, std::string_view line, board::Verdict verdict) {
     if (listener_ != nullptr) {
         listener_->on_received(now, channel, line, verdict);
+    }
+    if (scene_) {
+        scene_->observer().on_received(now, channel, line, verdict);
     }
     ++ledger_.lines_heard;
     ++requests_;
@@ -93,6 +97,9 @@ void World::on_received(SimTime now, Channel channel, std::string_view line, boa
 void World::on_sent(SimTime now, Channel channel, std::string_view line) {
     if (listener_ != nullptr) {
         listener_->on_sent(now, channel, line);
+    }
+    if (scene_) {
+        scene_->observer().on_sent(now, channel, line);
     }
     ++ledger_.lines_said;
     if (channel != Channel::host || !cast_.probes[static_cast<std::size_t>(Channel::host)]) {
@@ -128,11 +135,17 @@ void World::on_power_on(SimTime now) {
     new_job();
 }
 
-void World::on_event(SimTime, machine::EventId event) {
+void World::on_event(SimTime now, machine::EventId event) {
+    if (scene_) {
+        scene_->observer().on_event(now, event);
+    }
     if (event->name == "job.started" || event->name == "job.stopped" || event->name == "job.replaced" ||
         event->name == "file.selected") {
         new_job();
+    } else if (event->name == "job.paused") {
+        ledger_.paused = true;
     }
+    ledger_.prints.see(event, board_->machine());
 }
 
 /// Where the job under way is executed: a place at which it may be taken up again.
@@ -140,6 +153,7 @@ void World::note_place() {
     const machine::Machine& machine = board_->machine();
     const auto byte = machine.job.active() ? number_of(machine, "job.executed_byte") : std::nullopt;
     if (byte) {
+        ledger_.job_executed = static_cast<std::uint64_t>(*byte);
         ledger_.places[machine.job.path()].insert(static_cast<std::uint64_t>(*byte));
     }
 }
@@ -173,6 +187,8 @@ void World::after_step() {
     ledger_.before = board_->time();
     ledger_.job_byte = machine.job.byte();
     ledger_.job_seen = ledger_.job_number;
+    ledger_.paused = false;
+    ledger_.harmed = ledger_.harmed || !machine.faults.list().empty();
     ledger_.most_bytes_read = 0;
     ledger_.stops_at_one_moment = 0;
 }
@@ -219,6 +235,15 @@ void World::run_to(SimTime time) {
             continue;
         }
         SimTime next = std::min(due, time);
+        if (scene_) {
+            if (scene_->is_due(now_)) {
+                scene_->advance(now_, *board_, screen_ ? &*screen_ : nullptr);
+                new_job();  // it may have been sought in
+                take_output();
+                continue;
+            }
+            next = std::min(next, scene_->due());
+        }
         if (screen_) {
             const SimTime screen_due = screen_->advance(now_);
             if (!screen_->output().empty()) {
@@ -333,106 +358,6 @@ void World::step(std::uint64_t number) {
     fault::Dice dice(seed_, number, 0);
     do_step(*this, dice);
     after_step();
-}
-
-void World::ask(Channel channel) {
-    const auto& probe = cast_.probes[static_cast<std::size_t>(channel)];
-    if (!probe) {
-        return;
-    }
-    asked_ = channel;
-    heard_.clear();
-    switch (channel) {
-        case Channel::main:
-            say(channel, "\n");  // ends what was left unfinished
-            heard_.clear();
-            say(channel, cast_.profile->line.framing == behaviour::Framing::frames
-                             ? protocol::frame(probe->request)
-                             : probe->request + "\n");
-            break;
-        case Channel::host:
-            say(channel, "\n");
-            heard_.clear();
-            say(channel, probe->request + "\n");
-            break;
-        case Channel::network:
-            datagram(99, probe->request);
-            break;
-    }
-    pass(patience);
-    if (!probe->answered_by(heard_)) {
-        ledger_.unanswered.push_back(fmt::format("{} on the {} line was not answered by \"{}\"",
-                                                 probe->request, board::other_end(channel), probe->answer));
-    }
-}
-
-/// Many short moves by the USB side, each with its number and checksum, and where they lead.
-void World::walk() {
-    constexpr int moves = 60;
-    const auto& probe = cast_.probes[static_cast<std::size_t>(Channel::host)];
-    if (!probe || !number_of(board_->machine(), "position.x") || board_->machine().job.active()) {
-        return;
-    }
-    fault::Dice dice(seed_, moves, 1);
-    command("G28");
-    command("G90");
-    command("G1 X50 Y50 F6000");
-    pass(rest);
-    const auto at = [this](std::string_view path) { return number_of(board_->machine(), path).value_or(0); };
-    Ledger::Walk walk;
-    walk.asked_mm = {at("position.x"), at("position.y")};
-    command("G91");
-    for (int i = 0; i < moves; ++i) {
-        const std::array<double, 2> by{static_cast<double>(dice.below(100)) / 100,
-                                       static_cast<double>(dice.below(100)) / 100};
-        command(fmt::format("G1 X{:.2f} Y{:.2f} F3000", by[0], by[1]));
-        walk.asked_mm[0] += by[0];
-        walk.asked_mm[1] += by[1];
-        // As hosts do: a few ahead, and no more until it is acknowledged.
-        for (int waited = 0; owed() > 4 && waited < 600; ++waited) {
-            pass(std::chrono::seconds(1));
-        }
-        pass(std::chrono::milliseconds(dice.below(200)));
-    }
-    command("G90");
-    pass(rest);
-    walk.came_mm = {at("position.x"), at("position.y")};
-    ledger_.walk = walk;
-}
-
-void World::peace() {
-    disk_.set_trouble(Disk::Trouble::none);
-    eeprom_.fails = false;
-    tinker([](machine::Machine& machine) {
-        machine.faults.clear();
-        machine.insert_card(0);
-        machine.transfer.trouble = {};
-    });
-    say(Channel::host, "\n");
-    say(Channel::host, "M29\n");  // of a file that its host has forgotten
-    say(Channel::main, "\n");
-    if (board_->machine().hung()) {
-        reset();
-    }
-    pass(rest);
-    for (int i = 0; i < 50 && board_->machine().job.waits_for_user; ++i) {
-        tinker([](machine::Machine& machine) { machine.user_continues(); });
-        pass(rest);
-    }
-    // At the slowest speed that can be set a few moves take days, and what is asked waits behind them.
-    for (int i = 0; i < 500 && owed() > 0; ++i) {
-        pass(rest);
-    }
-    if (board_->machine().hung()) {
-        reset();
-        pass(std::chrono::minutes(1));
-    }
-    for (const Channel channel : {Channel::main, Channel::host, Channel::network}) {
-        ask(channel);
-    }
-    walk();
-    after_step();
-    look(Moment::peace);
 }
 
 }  // namespace fauxboard::world

@@ -16,6 +16,7 @@
 #include "emulator/world/disk.h"
 #include "emulator/world/invariants.h"
 #include "emulator/world/ledger.h"
+#include "emulator/world/scene.h"
 #include "emulator/world/stores.h"
 
 namespace fauxboard::world {
@@ -61,10 +62,13 @@ class World final : private board::Observer {
     void power_cut(fault::Dice& dice);
     void reload();
     void touch(fault::Dice& dice);
+    /// Begins a print from the card.
+    void print(const std::string& file);
     /// A file whose whole content is `content`, as soon as it stands under its name.
     void will_be(const std::string& path, std::string content) {
         ledger_.whole[path].insert(std::move(content));
     }
+    void misset() { ledger_.misset = true; }
     void new_job() { ++ledger_.job_number; }
     /// How many commands of the USB side still wait for their acknowledgement.
     std::int64_t owed() const;
@@ -91,6 +95,7 @@ class World final : private board::Observer {
     void after_step();
     void ask(board::Channel channel);
     void walk();
+    void proof_print();
     void note_place();
 
     const Cast& cast_;
@@ -98,9 +103,11 @@ class World final : private board::Observer {
     board::Observer* listener_;
     Disk disk_;
     Eeprom eeprom_;
+    EepromCells eeprom_cells_;
     JobPlace job_place_;
     std::unique_ptr<board::Board> board_;
     std::optional<screen::Screen> screen_;
+    std::optional<Scene> scene_;
     Ledger ledger_;
     SimTime now_{0};
     SimTime past_{0};

@@ -37,6 +37,12 @@ bool has(const std::string& text, std::string_view part) {
     return text.find(part) != std::string::npos;
 }
 
+/// What a host that counts its lines sends; only such ones are written to a file.
+std::string numbered(int number, const std::string& command) {
+    const std::string line = "N" + std::to_string(number) + " " + command;
+    return line + "*" + std::to_string(protocol::xor_checksum(line));
+}
+
 constexpr std::string_view position = "X:0.00 Y:0.00 Z:0.00 E:0.00 Count X:0 Y:0 Z:0\n";
 
 }  // namespace
@@ -163,6 +169,39 @@ TEST_CASE_FIXTURE(Marlin, "Marlin: files have short names and long ones") {
     CHECK(
         has(told("M23 /longfo~1/abench~2.gco"), "\nFile opened: abench~2.gco Size: 4\nFile selected\nok\n"));
     CHECK(has(told("M20 T"), "\nTEST.GCO 1234 0x5A210000\n"));
+}
+
+TEST_CASE_FIXTURE(Marlin, "Marlin: of two lines that upload at once each writes its own file, or none") {
+    say(numbered(1, "M28 FIRST.GCO"));
+    say("M28 SECOND.GCO", Channel::host);
+    CHECK(has(heard_by_host(), "open failed, File: SECOND.GCO.\nok\n"));
+    forget();
+    say("M104 S50", Channel::host);
+    say(numbered(2, "G1 X1"));
+    say("M29", Channel::host);
+    CHECK(heard_by_host() == "ok\nok\n");  // it has no file open
+    CHECK(number("heaters.nozzle.target") == 50);
+    CHECK(told(numbered(3, "M29")) == "Done saving file.\nok\n");
+    const std::string list = told("M20");
+    CHECK(has(list, "\nFIRST.GCO 7\n"));
+    CHECK(!has(list, "SECOND"));
+}
+
+TEST_CASE_FIXTURE(Marlin,
+                  "Marlin: who was silent too long loses its file, and its lines go nowhere until M29") {
+    say(numbered(1, "M28 FIRST.GCO"));
+    say(numbered(2, "M104 S50"));
+    run_for(40);
+    say(numbered(1, "M28 SECOND.GCO"), Channel::host);
+    say(numbered(2, "G1 X1"), Channel::host);
+    CHECK(told(numbered(3, "M104 S60")) == "ok\n");
+    CHECK(number("heaters.nozzle.target") == 0);
+    CHECK(has(told(numbered(4, "M29")), "ok\n"));
+    say(numbered(3, "M29"), Channel::host);
+    CHECK(has(told("M20"), "\nSECOND.GCO 7\n"));
+    CHECK(!has(told("M20"), "FIRST"));
+    CHECK(told("M104 S70") == "ok\n");
+    CHECK(number("heaters.nozzle.target") == 70);
 }
 
 TEST_CASE_FIXTURE(Marlin, "Marlin: a print from the card, told to both, stopped, and another one") {

@@ -170,7 +170,8 @@ TEST_CASE("hostile names: nothing outside is made, changed or removed") {
         const std::string ended = bench.host("M29");
         CHECK_FALSE(tells_secret(began));
         written += ended.find("Done saving file.") != std::string::npos ? 1 : 0;
-        CHECK_FALSE(testing::filament_printer(bench.board.machine()).host.writing());
+        CHECK_FALSE(
+            testing::filament_printer(bench.board.machine()).host.writing(machine::HostSide::usb_port));
         CHECK(trap.seen_outside() == before);
         bench.host("M30 " + name);
         CHECK(trap.seen_outside() == before);

@@ -2,8 +2,11 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
+
 #include "emulator/host/profile_files.h"
 #include "emulator/host/screen_files.h"
+#include "emulator/host/script_files.h"
 #include "emulator/world/invariants.h"
 #include "emulator/world/play.h"
 #include "emulator/world/steps.h"
@@ -12,7 +15,7 @@ namespace fauxboard::world {
 namespace {
 
 /// So that a program without optimisation is done in a minute; `fauxboard soak` plays as many as are wanted.
-constexpr std::uint64_t seeds = 6;
+constexpr std::uint64_t seeds = 4;
 constexpr std::uint64_t steps = 50;
 
 Cast cast_of(const std::string& name) {
@@ -50,12 +53,45 @@ TEST_CASE("each line of every board has a request that it is known to answer") {
 
 TEST_CASE("a world is its seed: the same bytes again, and others for another") {
     const Cast cast = cast_of("geeetech-a30t");
-    const Outcome once = play(cast, 5, whole(steps));
-    const Outcome again = play(cast, 5, whole(steps));
+    const Outcome once = play(cast, 5, whole(10));
+    const Outcome again = play(cast, 5, whole(10));
     CHECK(once.digest == again.digest);
     CHECK(once.time == again.time);
     CHECK(once.requests == again.requests);
-    CHECK(play(cast, 6, whole(steps)).digest != once.digest);
+    CHECK(play(cast, 6, whole(10)).digest != once.digest);
+}
+
+TEST_CASE("what a board prints is found by trying, and printed at the end of its life") {
+    struct Row {
+        const char* profile;
+        const char* file;
+        Tally tally;
+    };
+    constexpr std::array rows{
+        Row{"marlin", "cold.gco", {61, 0}}, Row{"geeetech-a30-no-card", "cold.gco", {61, 0}},
+        Row{"elegoo-mars-pro", "part.cbddlp", {0, 5}}, Row{"mks-dlp", "panel.cbddlp", {0, 5}}};
+    for (const Row& row : rows) {
+        const Cast cast = cast_of(row.profile);
+        CAPTURE(row.profile);
+        CHECK(cast.proof.file == row.file);
+        CHECK(cast.proof.tally == row.tally);
+        CHECK(cast.prints.size() >= 2);
+    }
+    // One that came to another end than it should.
+    Cast cast = cast_of("elegoo-mars-pro");
+    cast.proof.tally = {0, 6};
+    CHECK(play(cast, 1, {})
+              .broken.starts_with("prints end: a print had 0 moves and 5 layers instead of 0 moves and 6"));
+}
+
+TEST_CASE("a scenario is played along, over and over, and is in the seed's bytes") {
+    const behaviour::SourceText source = host::find_script("print-with-filament-change");
+    const script::Cast with = host::make_cast("geeetech-a30t", script::read_head(source).screen);
+    const Cast cast = make_cast(script::load_scenario(source, host::script_finder(), with));
+    const Outcome once = play(cast, 5, whole(10));
+    CHECK_MESSAGE(once.held(), once.broken);
+    CHECK(play(cast, 5, whole(10)).digest == once.digest);
+    CHECK(play(make_cast(with.profile, with.screen), 5, whole(10)).digest != once.digest);
 }
 
 TEST_CASE("a broken promise shrinks to what breaks it, and its report plays again") {

@@ -18,10 +18,11 @@ constexpr auto driver = [](auto& p) -> auto& {
 };
 
 constexpr std::array table{
-    row.shown("job.layer_by_height", integer, "",
-              "layer of the job by the nozzle's height, (Z - 0.1 mm) / layer height, where the file tells that "
-              "height; else as its comments count",
-              [](const Printer& p) { return p.runner.layer_by_height(); }),
+    row.shown(
+        "job.layer_by_height", integer, "",
+        "layer of the job by the nozzle's height, (Z - 0.1 mm) / layer height, where the file tells that "
+        "height; else as its comments count",
+        [](const Printer& p) { return p.runner.layer_by_height(); }),
     row.shown("job.lines", integer, "", "lines of the file read in this job, comments included",
               [](const Printer& p) { return p.runner.counts().lines; }),
     row.shown("job.moves", integer, "", "moves of the file carried out in this job (G0 to G3)",
@@ -39,7 +40,7 @@ constexpr std::array table{
               [](const Printer& p) { return p.host.moves(); }),
     row.shown("host.writing", boolean, "",
               "lines of the USB side are written to a file (M28) and not carried out",
-              [](const Printer& p) { return p.host.writing(); }),
+              [](const Printer& p) { return p.host.writing(p.host.speaker); }),
     row.plain("screen.known", boolean, "", 0, 1, "the screen has told its firmware since power-on",
               FAUXBOARD_PLACE(screen.known)),
     row.plain("screen.firmware", text, "", 0, 64, "firmware of the screen as it told it",

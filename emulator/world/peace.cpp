@@ -1,0 +1,164 @@
+// The end of a world: all troubles are taken away, and the board shows that it is none the worse for them.
+
+#include <fmt/format.h>
+
+#include <array>
+#include <chrono>
+
+#include "emulator/behaviour/fields.h"
+#include "emulator/world/world.h"
+#include "protocol/framing.h"
+
+namespace fauxboard::world {
+namespace {
+
+using board::Channel;
+
+/// What a board that was given peace needs to come to rest: the longest wait, and the queues behind it.
+constexpr SimTime rest = std::chrono::hours(2);
+/// Within which a good request is answered then.
+constexpr SimTime patience = std::chrono::seconds(10);
+/// At the slowest speed that can be set a few moves take days.
+constexpr int most_rests = 500;
+
+}  // namespace
+
+void World::ask(Channel channel) {
+    const auto& probe = cast_.probes[static_cast<std::size_t>(channel)];
+    if (!probe) {
+        return;
+    }
+    asked_ = channel;
+    heard_.clear();
+    switch (channel) {
+        case Channel::main:
+            say(channel, "\n");  // ends what was left unfinished
+            heard_.clear();
+            say(channel, cast_.profile->line.framing == behaviour::Framing::frames
+                             ? protocol::frame(probe->request)
+                             : probe->request + "\n");
+            break;
+        case Channel::host:
+            say(channel, "\n");
+            heard_.clear();
+            say(channel, probe->request + "\n");
+            break;
+        case Channel::network:
+            datagram(99, probe->request);
+            break;
+    }
+    pass(patience);
+    if (!probe->answered_by(heard_)) {
+        ledger_.unanswered.push_back(fmt::format("{} on the {} line was not answered by \"{}\"",
+                                                 probe->request, board::other_end(channel), probe->answer));
+    }
+}
+
+/// Many short moves by the USB side, each with its number and checksum, and where they lead: some by a
+/// distance and some to a place, so that their order tells.
+void World::walk() {
+    constexpr int moves = 60;
+    constexpr double corner = 50;
+    const auto& probe = cast_.probes[static_cast<std::size_t>(Channel::host)];
+    if (!probe || !number_of(board_->machine(), "position.x") || board_->machine().job.active()) {
+        return;
+    }
+    fault::Dice dice(seed_, moves, 1);
+    command("G28");
+    command("G90");
+    command(fmt::format("G1 X{} Y{} F6000", corner, corner));
+    pass(rest);
+    const auto at = [this](std::string_view path) { return number_of(board_->machine(), path).value_or(0); };
+    const std::array<double, 2> start{at("position.x"), at("position.y")};
+    Ledger::Walk walk;
+    walk.asked_mm = start;
+    for (int i = 0; i < moves; ++i) {
+        const bool to_place = dice.below(6) == 0;
+        std::array<double, 2> by{static_cast<double>(dice.below(100)) / 100,
+                                 static_cast<double>(dice.below(100)) / 100};
+        for (std::size_t axis = 0; axis < by.size(); ++axis) {
+            walk.asked_mm[axis] = by[axis] + (to_place ? start[axis] : walk.asked_mm[axis]);
+            by[axis] += to_place ? corner : 0;
+        }
+        command(to_place ? "G90" : "G91");
+        command(fmt::format("G1 X{:.2f} Y{:.2f} F3000", by[0], by[1]));
+        // As hosts do: a few ahead, and no more until it is acknowledged.
+        for (int waited = 0; owed() > 4 && waited < 600; ++waited) {
+            pass(std::chrono::seconds(1));
+        }
+        pass(std::chrono::milliseconds(dice.below(200)));
+    }
+    command("G90");
+    pass(rest);
+    walk.came_mm = {at("position.x"), at("position.y")};
+    ledger_.walk = walk;
+}
+
+/// A file that a fresh board prints is printed, from the card.
+void World::proof_print() {
+    const Cast::Proof& proof = cast_.proof;
+    if (proof.file.empty() || ledger_.misset) {
+        return;
+    }
+    disk_.put(proof.file, cast_.files.at(proof.file));
+    tinker([](machine::Machine& machine) {
+        machine.stop_job();
+        machine.storage.choose(0);
+    });
+    act("print.stop");
+    pass(rest);
+    ledger_.prints.forget();
+    ledger_.proof = proof.tally;
+    print(proof.file);
+    for (int i = 0; i < most_rests && !ledger_.prints.ended(); ++i) {
+        pass(rest);
+    }
+}
+
+void World::print(const std::string& file) {
+    new_job();
+    for (const std::string& words : words_to_print(file)) {
+        act(words);
+    }
+}
+
+void World::peace() {
+    scene_.reset();
+    disk_.set_trouble(Disk::Trouble::none);
+    eeprom_.fails = false;
+    tinker([](machine::Machine& machine) {
+        machine.faults.clear();
+        machine.insert_card(0);
+        machine.transfer.trouble = {};
+    });
+    for (const Channel channel : {Channel::host, Channel::main}) {
+        say(channel, "\n");
+        if (channel == Channel::host || cast_.profile->line.framing == behaviour::Framing::commands) {
+            say(channel, "M29\n");  // of a file that its host has forgotten
+        }
+    }
+    if (board_->machine().hung()) {
+        reset();
+    }
+    pass(rest);
+    for (int i = 0; i < 50 && board_->machine().job.waits_for_user; ++i) {
+        tinker([](machine::Machine& machine) { machine.user_continues(); });
+        pass(rest);
+    }
+    for (int i = 0; i < most_rests && owed() > 0; ++i) {
+        pass(rest);  // what is asked waits behind the moves
+    }
+    if (board_->machine().hung()) {
+        reset();
+        pass(std::chrono::minutes(1));
+    }
+    for (const Channel channel : {Channel::main, Channel::host, Channel::network}) {
+        ask(channel);
+    }
+    walk();
+    proof_print();
+    after_step();
+    look(Moment::peace);
+}
+
+}  // namespace fauxboard::world
