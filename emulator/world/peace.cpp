@@ -6,6 +6,7 @@
 #include <chrono>
 
 #include "emulator/behaviour/fields.h"
+#include "emulator/machine/host_side.h"
 #include "emulator/world/world.h"
 #include "protocol/framing.h"
 
@@ -145,7 +146,8 @@ void World::peace() {
         tinker([](machine::Machine& machine) { machine.user_continues(); });
         pass(rest);
     }
-    for (int i = 0; i < most_rests && owed() > 0; ++i) {
+    const machine::HostSide& lines = board_->machine().host_side();
+    for (int i = 0; i < most_rests && (owed() > 0 || lines.running()); ++i) {
         pass(rest);  // what is asked waits behind the moves
     }
     if (board_->machine().hung()) {
