@@ -60,20 +60,14 @@ bool is_acfg(const std::string& file) {
     return file.ends_with(".acfg");
 }
 
-std::optional<CheckedAcfg> check_acfg(const std::string& file) {
-    const host::FileText found = host::read_text_file(file);
-    if (!found.text) {
+std::optional<CheckedAcfg> check_acfg(const std::string& file, std::string& trouble) {
+    const host::FileText read = host::read_text_file(file);
+    if (!read.text) {
+        trouble = read.trouble.empty() ? "there is no such file" : read.trouble;
         return std::nullopt;
     }
-    std::string_view rest = *found.text;
     CheckedAcfg checked{file, {}, dlp::default_settings(firmware)};
-    checked.report = dlp::read_acfg(
-        [&rest](char* out, std::size_t room) {
-            const std::size_t size = rest.copy(out, room);
-            rest.remove_prefix(size);
-            return size;
-        },
-        checked.live, firmware);
+    checked.report = dlp::read_acfg(*read.text, checked.live, firmware);
     return checked;
 }
 
@@ -105,6 +99,10 @@ std::string acfg_text(const CheckedAcfg& checked) {
         ok ? checked.file + ": ok; the board shows \"Settings loaded success.\"\n"
            : fmt::format("{}:{}: the board shows \"Error in settings file / on line {} : / {}\"\n",
                          checked.file, report.line, report.line, dlp::box_text(report.result));
+    if (report.too_large) {
+        text += fmt::format("it is larger than {} bytes, which no settings file is: not read any further\n",
+                            dlp::acfg_most_bytes);
+    }
     for (const unsigned line : report.cut_lines) {
         text += fmt::format("line {} is longer than {} bytes: the board takes it for two, and counts on\n",
                             line, dlp::acfg_line_bytes - 1);

@@ -36,7 +36,7 @@ struct Count {
     std::size_t cells = 0;
     std::size_t states = 0;
     std::size_t requests = 0;
-    std::size_t dead_on_purpose = 0;  ///< this breakdown is a board whose program stands still
+    std::size_t dead_on_purpose = 0;  ///< this fault is a board whose program stands still
 };
 
 /// Whether the line's commands stand in the one row with those of the USB side.
