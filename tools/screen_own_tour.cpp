@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <functional>
 #include <map>
 #include <set>
@@ -300,15 +299,10 @@ ExitCode tour_own(const ScreenOptions& options) {
     tour.run();
     const auto results = tour.results();
     print(options.json ? screen::tour_json(tour.name(), results) : screen::tour_table(results));
-    if (!options.junit.empty()) {
-        std::ofstream out(options.junit, std::ios::binary);
-        out << screen::tour_junit(tour.name(), results);
-        out.flush();
-        if (!out) {
-            return complain("screen", ExitCode::bad_input, options.junit + " cannot be written");
-        }
-    }
-    return tour.complete() ? ExitCode::ok : ExitCode::failed;
+    const ExitCode code = tour.complete() ? ExitCode::ok : ExitCode::failed;
+    return options.junit.empty()
+               ? code
+               : keep_picture(options.junit, screen::tour_junit(tour.name(), results), code);
 }
 
 }  // namespace fauxboard::tools
