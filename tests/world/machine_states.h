@@ -18,7 +18,7 @@ struct State {
     bool prints = false;
 };
 
-/// Those of the machine of such a board; all breakdowns that it can have are states as well.
+/// Those of the machine of such a board; all faults that it can have are states as well.
 std::vector<State> states_of(LiveBench& one_of_them);
 
 }  // namespace fauxboard::world
