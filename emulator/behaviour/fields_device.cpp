@@ -6,6 +6,7 @@
 
 #include "emulator/behaviour/field_rows.h"
 #include "emulator/behaviour/field_tables.h"
+#include "emulator/machine/card_names.h"
 
 namespace fauxboard::behaviour::rows {
 namespace {
@@ -57,6 +58,13 @@ constexpr std::array table{
               [](const Machine& p) { return std::string_view{p.job.shown()}; }),
     row.shown("job.called", text, "", "the file selected as the card's list calls it",
               [](const Machine& p) { return std::string_view{p.job.called()}; }),
+    row.shown("job.long_name", text, "",
+              "the last part of job.path, where the list calls it otherwise; else empty",
+              [](const Machine& p) {
+                  const std::string_view path = p.job.path();
+                  const std::string_view name = path.substr(path.rfind('/') + 1);
+                  return machine::same_letters(name, p.job.called()) ? std::string_view{} : name;
+              }),
     row.shown("job.selected", boolean, "", "a file is selected",
               [](const Machine& p) { return p.job.selected(); }),
     row.shown("job.pausing", boolean, "", "a pause was asked for and the head is on its way to park",

@@ -57,6 +57,20 @@ bool respell(const Volume& volume, const Storage::Naming& naming, std::string& p
     return true;
 }
 
+/// What a disk with short names calls the last part of a path.
+std::string short_name_of(const Volume& volume, std::string_view path) {
+    const std::size_t slash = path.rfind('/');
+    std::vector<CardEntry> entries;
+    volume.list(slash == std::string_view::npos ? std::string_view{} : path.substr(0, slash), entries);
+    const std::vector<std::string> names = short_names(entries);
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        if (entries[i].name == path.substr(slash + 1)) {
+            return names[i];
+        }
+    }
+    return {};
+}
+
 bool quote(char c) {
     return c == '\'' || c == '"';
 }
@@ -248,6 +262,7 @@ Storage::Found Storage::find(std::string_view name) const {
             found.kind = volume.look(path, found.bytes);
         }
         found.kind = found.kind == Volume::Kind::file ? file_trouble_ : found.kind;
+        found.shown = naming_.short_names ? short_name_of(volume, path) : std::string();
         found.path = std::move(path);
         return found.kind != Volume::Kind::missing;
     };

@@ -162,6 +162,10 @@ TEST_CASE_FIXTURE(Marlin, "Marlin: files have short names and long ones") {
     CHECK(told("M33 /longfo~1/abench~2.gco") == "/Long folder/A benchy with supports.gcode\nok\n");
     CHECK(
         has(told("M23 /longfo~1/abench~2.gco"), "\nFile opened: abench~2.gco Size: 4\nFile selected\nok\n"));
+    CHECK(told("M27 C") == "Current file: ABENCH~2.GCO A benchy with supports.gcode\nok\n");
+    say("M23 long folder/a benchy with rafts.gcode");  // ends at its first blank
+    say("M23 test.gco");
+    CHECK(told("M27 C") == "Current file: TEST.GCO\nok\n");
     CHECK(has(told("M20 T"), "\nTEST.GCO 1234 0x5A210000\n"));
 }
 
