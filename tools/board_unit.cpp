@@ -299,17 +299,24 @@ void BoardUnit::close() {
     }
 }
 
-std::string BoardUnit::summary() const {
+/// What passed on its lines; nothing of a board that has none.
+std::string BoardUnit::line_summary() const {
+    if (!has_main_line() && !host_link_) {
+        return ".\n";
+    }
     const board::Counters& c = board_->counters();
     const link::LinkStats& l = link_->stats();
-    std::string out = fmt::format(
-        "After {:.3f} s: {} lines heard, {} said, on all lines. Bad frames {}, too long {}, "
+    return fmt::format(
+        ": {} lines heard, {} said, on all lines. Bad frames {}, too long {}, "
         "unknown codes {}, "
         "no rule {}, requests lost {}, messages lost {}, cut {}. Bytes of the main line: in {}, "
         "out {}, lost {}.\n",
-        machine::to_seconds(live_->now()), c.lines_received, c.lines_sent, c.bad_frames,
-        board_->lines_too_long(), c.unknown_codes, c.unmatched, c.requests_lost, c.messages_lost, c.lines_cut,
-        l.bytes_in, l.bytes_out, l.bytes_lost);
+        c.lines_received, c.lines_sent, c.bad_frames, board_->lines_too_long(), c.unknown_codes, c.unmatched,
+        c.requests_lost, c.messages_lost, c.lines_cut, l.bytes_in, l.bytes_out, l.bytes_lost);
+}
+
+std::string BoardUnit::summary() const {
+    std::string out = fmt::format("After {:.3f} s", machine::to_seconds(live_->now())) + line_summary();
     for (const fault::FaultStatus& status : faults_->list()) {
         out += host::fault_sentence(status);
         const bool elsewhere = status.seen == 0 && !status.spec.line && host_link_;

@@ -84,6 +84,7 @@ class BoardUnit {
     void set_up_panel();
     void add_faults();
     void tell_of_faults();
+    std::string line_summary() const;
     bool is_for_a_screen() const;
     link::Link& make_wire();
     /// A board that can do without its screen has no line for one when only its USB side was asked for.

@@ -67,12 +67,13 @@ Told tell(const std::string& file) {
 }
 
 Told tell_acfg(const std::string& file) {
-    if (const auto checked = check_acfg(file)) {
+    std::string trouble;
+    if (const auto checked = check_acfg(file, trouble)) {
         const bool ok = checked->report.result == dlp::AcfgResult::ok;
         return {acfg_json(*checked), acfg_text(*checked), ok ? ExitCode::ok : ExitCode::failed};
     }
     return {{{"file", file}, {"result", "not_opened"}, {"line", nullptr}, {"saved", false}},
-            file + ": no such file, or it cannot be read\n",
+            file + ": " + trouble + "\n",
             ExitCode::bad_input};
 }
 

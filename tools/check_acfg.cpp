@@ -4,10 +4,10 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "emulator/behaviour/wire_text.h"
+#include "emulator/host/text_file.h"
 
 namespace fauxboard::tools {
 namespace {
@@ -60,22 +60,15 @@ bool is_acfg(const std::string& file) {
     return file.ends_with(".acfg");
 }
 
-std::optional<CheckedAcfg> check_acfg(const std::string& file) {
-    std::ifstream in(file, std::ios::binary);
-    if (!in || in.peek() == std::ifstream::traits_type::eof()) {
-        if (!in.is_open() || in.bad()) {
-            return std::nullopt;
-        }
-        in.clear(std::ios::eofbit);
+std::optional<CheckedAcfg> check_acfg(const std::string& file, std::string& trouble) {
+    const host::FileText read = host::read_text_file(file);
+    if (!read.text) {
+        trouble = read.trouble.empty() ? "there is no such file" : read.trouble;
+        return std::nullopt;
     }
     CheckedAcfg checked{file, {}, dlp::default_settings(firmware)};
-    checked.report = dlp::read_acfg(
-        [&in](char* out, std::size_t room) {
-            in.read(out, static_cast<std::streamsize>(room));
-            return static_cast<std::size_t>(in.gcount());
-        },
-        checked.live, firmware);
-    return in.bad() ? std::nullopt : std::optional(std::move(checked));
+    checked.report = dlp::read_acfg(*read.text, checked.live, firmware);
+    return checked;
 }
 
 ordered_json acfg_json(const CheckedAcfg& checked) {
@@ -106,6 +99,10 @@ std::string acfg_text(const CheckedAcfg& checked) {
         ok ? checked.file + ": ok; the board shows \"Settings loaded success.\"\n"
            : fmt::format("{}:{}: the board shows \"Error in settings file / on line {} : / {}\"\n",
                          checked.file, report.line, report.line, dlp::box_text(report.result));
+    if (report.too_large) {
+        text += fmt::format("it is larger than {} bytes, which no settings file is: not read any further\n",
+                            dlp::acfg_most_bytes);
+    }
     for (const unsigned line : report.cut_lines) {
         text += fmt::format("line {} is longer than {} bytes: the board takes it for two, and counts on\n",
                             line, dlp::acfg_line_bytes - 1);

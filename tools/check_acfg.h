@@ -19,8 +19,8 @@ struct CheckedAcfg {
     dlp::Settings live;  ///< of a board that had its defaults and has loaded it
 };
 
-/// Reads it as the board does. Nothing when it cannot be read.
-std::optional<CheckedAcfg> check_acfg(const std::string& file);
+/// Reads it as the board does. Nothing when it cannot be read, and why not in `trouble`.
+std::optional<CheckedAcfg> check_acfg(const std::string& file, std::string& trouble);
 
 /// {"result", "line", "saved", "values", ...}: every parameter as it would be live, times in ms.
 nlohmann::ordered_json acfg_json(const CheckedAcfg& checked);

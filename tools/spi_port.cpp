@@ -85,7 +85,7 @@ void SpiPort::flush() {
             on_trouble_(fmt::format("whoever is at {} does not read; records are lost.", path_));
         }
         if (was_up_ && !stream_->up()) {
-            pins_.awaited = bytes_.awaited = false;
+            pins_.awaited = bytes_.awaited = ids_.awaited = false;
             splitter_ = {};
         }
         was_up_ = stream_->up();
@@ -97,18 +97,31 @@ void SpiPort::transfer(SimTime now, ChipSelect chip, std::span<const std::uint8_
                        std::span<std::uint8_t> in) {
     ++number_;
     tell({SpiKind::out, chip, false, number_, now, std::string(text_of(out))});
-    const bool asks = chip == ChipSelect::fpga && in.size() == 3 && out[0] != 0;
-    if (asks) {
-        flush();
-        hear();
-        if (const auto answer = await(bytes_); answer && answer->data.size() == in.size()) {
-            std::copy(answer->data.begin(), answer->data.end(), in.begin());
-            return;
-        }
+    const bool asks_byte = chip == ChipSelect::fpga && in.size() == 3 && out[0] != 0;
+    const bool asks_id = chip != ChipSelect::fpga && out[0] == dlp::id_register;
+    if ((asks_byte && ask(bytes_, in)) || (asks_id && ask(ids_, in))) {
+        return;
     }
     if (std::any_of(in.begin(), in.end(), [](std::uint8_t byte) { return byte != 0; })) {
         tell({SpiKind::in, chip, false, number_, now, std::string(text_of(in))});
     }
+}
+
+bool SpiPort::ask(Answers& answers, std::span<std::uint8_t> in) {
+    flush();
+    hear();
+    const bool there = answers.awaited;
+    const auto answer = await(answers);
+    if (answer && answer->data.size() == in.size()) {
+        std::copy(answer->data.begin(), answer->data.end(), in.begin());
+        return true;
+    }
+    if (there && answers.of_controllers) {  // who plays the panel and says nothing has no controllers
+        answers.awaited = stream_->up();
+        std::fill(in.begin(), in.end(), std::uint8_t{0});
+        return true;
+    }
+    return false;
 }
 
 bool SpiPort::pin(SimTime now, bool good) {
@@ -135,8 +148,8 @@ void SpiPort::reset(SimTime now, bool low) {
 // -----------------------------------------------------------------------------------------------
 
 void SpiPort::hear(const SpiRecord& record) {
-    for (Answers* answers : {&pins_, &bytes_}) {
-        if (record.kind == answers->kind) {
+    for (Answers* answers : {&pins_, &bytes_, &ids_}) {
+        if (answers->takes(record)) {
             answers->awaited = true;
             // One to an earlier transfer comes too late.
             if (record.number == number_) answer_ = record;
@@ -157,7 +170,7 @@ void SpiPort::hear() {
 }
 
 std::optional<SpiRecord> SpiPort::await(Answers& answers) {
-    const auto is_it = [&] { return answer_ && answer_->kind == answers.kind && answer_->number == number_; };
+    const auto is_it = [&] { return answer_ && answers.takes(*answer_) && answer_->number == number_; };
     const auto until = std::chrono::steady_clock::now() + answer_limit;
     while (answers.awaited && !is_it()) {
         const auto left =
@@ -170,8 +183,9 @@ std::optional<SpiRecord> SpiPort::await(Answers& answers) {
         }
         if (size == 0 && !is_it()) {
             answers.awaited = false;
-            on_trouble_(fmt::format("whoever is at {} no longer says {}: that of the made-up FPGA counts.",
-                                    path_, answers.what));
+            on_trouble_(
+                fmt::format("whoever is at {} no longer says {}: {}.", path_, answers.what,
+                            answers.of_controllers ? "they are missing" : "that of the made-up FPGA counts"));
         }
     }
     return is_it() ? std::exchange(answer_, std::nullopt) : std::nullopt;

@@ -18,8 +18,10 @@ namespace fauxboard::tools {
 /// file, in a capture (FILE.pcapng), or for somebody at the other end, who may answer.
 ///
 /// Who has sent a 'P' record is waited for after each line, who has sent an 'I' record after each question
-/// for the command byte: the answer is a record of the same kind with the number of the transfer. One that
-/// does not come in time is that of the FPGA made up here, and nobody is waited for until the next one comes.
+/// for the command byte, who has sent one of a controller after each reading of an id: the answer is a record
+/// of the same kind with the number of the transfer. One that does not come in time is that of the FPGA made
+/// up here, and nobody is waited for until the next one comes; but an id that does not come is missing, and
+/// waited for again.
 class SpiPort final : public dlp::SpiTap {
   public:
     using OnTrouble = std::function<void(std::string_view sentence)>;
@@ -44,9 +46,16 @@ class SpiPort final : public dlp::SpiTap {
     /// Whether the other end answers with records of a kind.
     struct Answers {
         dlp::SpiKind kind;
+        bool of_controllers;  ///< else of the FPGA
         std::string_view what;
         bool awaited = false;
+
+        bool takes(const dlp::SpiRecord& record) const {
+            return record.kind == kind && (record.chip != dlp::ChipSelect::fpga) == of_controllers;
+        }
     };
+    /// The answer of whoever is at the other end to the transfer at hand. False: nobody's there to give one.
+    bool ask(Answers& answers, std::span<std::uint8_t> in);
     void tell(dlp::SpiRecord record);
     void flush();
     void hear();
@@ -60,8 +69,9 @@ class SpiPort final : public dlp::SpiTap {
     std::unique_ptr<link::DirectStream> stream_;
     std::string waiting_;  ///< records not handed on yet
     dlp::SpiSplitter splitter_;
-    Answers pins_{dlp::SpiKind::pin, "the checksum pin"};
-    Answers bytes_{dlp::SpiKind::in, "the command byte"};
+    Answers pins_{dlp::SpiKind::pin, false, "the checksum pin"};
+    Answers bytes_{dlp::SpiKind::in, false, "the command byte"};
+    Answers ids_{dlp::SpiKind::in, true, "the ids of the controllers"};
     std::optional<dlp::SpiRecord> answer_;  ///< the one that is waited for
     std::uint32_t number_ = 0;              ///< of the last transfer
     dlp::SimTime last_{0};                  ///< time of the last record: there is no going back

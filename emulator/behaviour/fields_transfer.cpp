@@ -26,6 +26,11 @@ constexpr std::array table{
               [](const Machine& p) -> const std::string& { return p.transfer.name(); }),
     row.shown("transfer.asked", text, "", "the name that was asked for last, refused or not",
               [](const Machine& p) -> const std::string& { return p.transfer.asked(); }),
+    row.shown("transfer.asked_part", text, "", "the last part of that name, behind the folders",
+              [](const Machine& p) {
+                  const std::string_view name = p.transfer.asked();
+                  return name.substr(name.rfind('/') + 1);
+              }),
     row.shown("transfer.existed", boolean, "", "a file of that name was there when the upload began",
               [](const Machine& p) { return p.transfer.existed(); }),
     row.shown("transfer.position", integer, "bytes", "where the next piece or block begins",

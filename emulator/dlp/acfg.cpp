@@ -54,6 +54,7 @@ class Lines {
         return all.substr(0, all.find('\0'));
     }
     unsigned number() const { return number_; }
+    bool too_large() const { return taken_ > acfg_most_bytes; }
     bool cut() const { return cut_; }
 
   private:
@@ -62,6 +63,7 @@ class Lines {
             at_ = 0;
             filled_ = bytes_(buffer_.data(), buffer_.size());
         }
+        ++taken_;
         return at_ == filled_ ? -1 : static_cast<unsigned char>(buffer_[at_++]);
     }
 
@@ -69,6 +71,7 @@ class Lines {
     std::array<char, 4096> buffer_{};
     std::size_t at_ = 0;
     std::size_t filled_ = 0;
+    std::size_t taken_ = 0;
     std::string text_;
     unsigned number_ = 0;
     bool cut_ = false;
@@ -138,6 +141,12 @@ class AcfgReader {
         Lines lines(bytes);
         while (report_.result == AcfgResult::ok && lines.next()) {
             line_ = lines.number();
+            if (lines.too_large()) {
+                report_.too_large = true;
+                report_.result = AcfgResult::invalid_value;
+                report_.line = line_;
+                break;
+            }
             if (lines.cut() && report_.cut_lines.size() < AcfgReport::most_taken) {
                 report_.cut_lines.push_back(line_);
             }

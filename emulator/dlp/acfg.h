@@ -33,12 +33,16 @@ struct AcfgReport {
     unsigned line = 0;                ///< of the error, from 1 as the board counts; 0 without one
     std::vector<AcfgValue> taken;     ///< in the order of the file; at most `most_taken`, the latest dropped
     std::vector<unsigned> cut_lines;  ///< lines too long for the board's buffer, which it took for two
+    bool too_large = false;           ///< no settings file is: the error is where reading ended
 
     static constexpr std::size_t most_taken = 1024;
 };
 
 /// How much of a line the board's buffer holds, its end included: a longer one is two lines to it.
 constexpr std::size_t acfg_line_bytes = 512;
+
+/// No settings file is larger. The real board would read on for hours.
+constexpr std::size_t acfg_most_bytes = 1UL << 20;
 
 /// Fills the buffer with the next bytes of a file, returns how many; 0 at the end.
 using AcfgBytes = std::function<std::size_t(char* out, std::size_t room)>;

@@ -59,4 +59,10 @@ class Calendar {
     SimTime at_zero_{never_set_s * 1'000'000};
 };
 
+/// A clock chip beside the board (DS3231), which 0.08 goes by when its settings say so.
+struct ExternalClock {
+    Calendar calendar;
+    bool dead = false;  ///< it does not answer
+};
+
 }  // namespace fauxboard::dlp

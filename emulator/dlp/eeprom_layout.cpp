@@ -165,6 +165,9 @@ void mend(Settings& settings) {
     mend_one(settings.general.zero_pos_mm, 0, false);
     mend_one(settings.general.pause_lift_mm, fallback.general.pause_lift_mm, false);
     mend_one(settings.general.end_lift_mm, fallback.general.end_lift_mm, false);
+    for (std::size_t i = 0; i < no_calibration.size(); ++i) {
+        mend_one(settings.general.touch[i], no_calibration[i], false);
+    }
 }
 
 /// What a program that takes over an older block sets, and its own defaults do not.

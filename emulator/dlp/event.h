@@ -37,6 +37,9 @@ enum class Event : std::uint8_t {
     uvtest_light_off,
     motor_off,
     panel_failed,
+    clock_not_set,
+    touch_calibrated,
+    touch_not_calibrated,
 };
 
 /// Who is told of events, and of what a person wants to know.

@@ -37,6 +37,9 @@ inline constexpr auto own_events = std::to_array<machine::EventInfo>({
     {"uvtest.light_off", "the lamp of the UV test went out by itself"},
     {"motor.off", "the motor lost its current after a time without moves; homing is forgotten"},
     {"panel.failed", "a controller of the UV panel does not answer with its id"},
+    {"clock.not_set", "the external clock did not take the time it was set to (0.08)"},
+    {"touch.calibrated", "the touch sensor has a new calibration, which is kept (0.08)"},
+    {"touch.not_calibrated", "the taps of a calibration say nothing: they lie in one line"},
 });
 
 /// The event that has this name, an own one or one of all machines.

@@ -20,6 +20,8 @@ constexpr std::array homing_failed_events{event("print.homing_failed"), event("p
 constexpr std::array read_error_event{event("print.read_error")};
 constexpr std::array power_lost_event{event("power.lost")};
 
+constexpr std::array clock_event{event("clock.not_set")};
+
 constexpr std::array<std::string_view, 2> levels{"low", "high"};
 constexpr std::array<std::string_view, 2> switches{"lower", "upper"};
 constexpr FaultParameter switch_parameter{"switch", choice, 0, 0, 1, "which switch", switches};
@@ -39,6 +41,10 @@ constexpr std::array cut_parameters{
     FaultParameter{"share", percent, 50, 0, 100, "how much of the next writing is done by then"}};
 constexpr std::array lost_parameters{
     FaultParameter{"share", percent, 5, 1, 100, "how much of each way is lost"}};
+
+constexpr std::array shift_parameters{
+    FaultParameter{"x", number, 40, -480, 480, "pixels to the right of the finger"},
+    FaultParameter{"y", number, 0, -320, 320, "pixels below it"}};
 
 /// Changes what is wrong with the FPGA.
 template <class F>
@@ -145,6 +151,21 @@ constexpr std::array table{
         lost_parameters, never,
         [](Printer& p, Values v) { platform(p, [&](auto& t) { t.lost_share = v[0] / 100; }); },
         [](Printer& p, Values) { platform(p, [](auto& t) { t.lost_share = 0; }); }, nullptr),
+    fault_row<Printer>(
+        "clock_dead",
+        "the clock chip beside the board does not answer: a box says so when it is set, and the board goes "
+        "by "
+        "its own clock (0.08, with use_external_clock = 1)",
+        clock_event, "", {}, never, [](Printer& p, Values) { p.board.external_clock.dead = true; },
+        [](Printer& p, Values) { p.board.external_clock.dead = false; }, nullptr),
+    fault_row<Printer>(
+        "touch_shifted",
+        "the touch sensor feels the finger beside where it is, until it is calibrated (0.08) or mended", {},
+        "", shift_parameters, never,
+        [](Printer& p, Values v) {
+            p.board.sensor_shift = {v[0], v[1]};
+        },
+        [](Printer& p, Values) { p.board.sensor_shift = {}; }, nullptr),
 };
 
 }  // namespace

@@ -10,8 +10,6 @@ namespace {
 constexpr SimTime start_time = ms(2000);
 /// Between two savings of the working times (0.08), besides those at the end of a print.
 constexpr SimTime hour = ms(3'600'000);
-/// Until a settings file is read off the stick.
-constexpr SimTime read_time = ms(100);
 
 /// Steps of the start, and when each begins.
 struct StartStep {
@@ -53,11 +51,13 @@ MksBoard::MksBoard(const BoardConfig& config, Stick& stick, machine::EepromCells
       listener_(listener) {
     if (config.clock) {
         calendar.set(*config.clock, SimTime{0});
+        external_clock.calendar = calendar;
     }
 }
 
 void MksBoard::power_on(SimTime now) {
     now_ = started_ = now;
+    supplied_ = true;
     eeprom.cut();
     Kept kept = default_kept(config_.firmware);
     for (const Block block : all_blocks) {
@@ -70,6 +70,9 @@ void MksBoard::power_on(SimTime now) {
         if (block_states_[static_cast<std::size_t>(block)] != BlockState::good) {
             write_block(block, now);
         }
+    }
+    if (uses_external_clock()) {
+        calendar = external_clock.calendar;
     }
     platform.stop(now);
     platform.power_on();
@@ -102,6 +105,7 @@ void MksBoard::start_panel(SimTime now) {
 }
 
 void MksBoard::cut_power(SimTime now) {
+    supplied_ = false;
     eeprom.advance(now);
     eeprom.cut();
     panel.cut_power();
@@ -283,77 +287,11 @@ bool MksBoard::delete_viewed() {
     return done;
 }
 
-bool MksBoard::set_zero(SimTime now) {
-    if (!print.homed() || print.state() != PrintState::idle || task_ != SetupTask::none) {
-        return false;
-    }
-    settings.general.zero_pos_mm = static_cast<float>(platform.position(now));
-    write_block(Block::general, now);
-    task_ = SetupTask::saving;
-    task_event_ = Event::platform_zero_set;
-    return true;
-}
-
-bool MksBoard::load_setup(std::string_view name, SimTime now) {
-    if (task_ != SetupTask::none || print.active()) {
-        return false;
-    }
-    setup_path_ = files.path_of(name);
-    setup_file_ = "0:/" + setup_path_;
-    task_ = SetupTask::loading;
-    report_.reset();
-    setup_opened_ = true;
-    read_due_ = now + read_time;
-    return true;
-}
-
-void MksBoard::read_setup(SimTime now) {
-    const auto source = stick_.open(setup_path_);
-    setup_opened_ = source != nullptr;
-    if (!setup_opened_) {
-        return end_setup(Event::setup_failed);
-    }
-    std::uint64_t at = 0;
-    report_ = read_acfg(
-        [&](char* out, std::size_t room) {
-            const std::size_t got = source->read(at, std::span(out, room));
-            at += got;
-            return got;
-        },
-        settings, config_.firmware);
-    raise(Event::setup_changed);
-    if (report_->result != AcfgResult::ok) {
-        return end_setup(Event::setup_failed);
-    }
-    write_block(Block::motor, now);
-    write_block(Block::general, now);
-    task_event_ = Event::setup_loaded;
-}
-
-void MksBoard::end_setup(Event event) {
-    task_ = SetupTask::none;
-    task_event_.reset();
-    raise(event);
-}
-
-bool MksBoard::save_setup(SimTime now) {
-    if (task_ != SetupTask::none) {
-        return false;
-    }
-    task_ = SetupTask::saving;
-    task_event_ = Event::setup_saved;
-    write_block(Block::general, now);
-    return true;
-}
-
-bool MksBoard::set_language(int language, SimTime now) {
-    if (language < 0 || language > 1) {
-        return false;
-    }
-    settings.general.language = static_cast<std::uint8_t>(language);
-    write_block(Block::general, now);
-    raise(Event::setup_changed);
-    return true;
+bool MksBoard::board_fan() const {
+    constexpr std::uint8_t with_lamp = 1;
+    constexpr std::uint8_t always = 2;
+    return supplied_ &&
+           (settings.general.fan_mode == always || (settings.general.fan_mode == with_lamp && lamp.fan()));
 }
 
 bool MksBoard::choose_image(unsigned image, SimTime now) {

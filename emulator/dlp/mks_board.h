@@ -40,6 +40,9 @@ class MksBoard final : private Listener {
 
     bool ready() const { return ready_due_ == never; }
     bool dozing() const { return dozing_; }
+    /// The fan that cools the board (0.08). What its modes mean is not known; chosen: 0 off, 1 while the
+    /// lamp's fan runs, 2 always. 3, which stands for whatever is more in a settings file, is no mode: off.
+    bool board_fan() const;
     /// Of the start: "", "periphery", "panel_configuring", ...
     std::string_view start_step(SimTime now) const;
 
@@ -53,6 +56,11 @@ class MksBoard final : private Listener {
     bool load_setup(std::string_view name, SimTime now);
     bool save_setup(SimTime now);
     bool set_language(int language, SimTime now);
+    /// Seconds are 0 from now on. The external clock is set, too, where the settings use it.
+    void set_clock(const Moment& moment, SimTime now);
+    /// Takes what the touch sensor read at the three targets, and keeps what comes of it.
+    bool calibrate_touch(const std::array<GlassPoint, 3>& read, SimTime now);
+    void reset_touch(SimTime now);
     bool choose_image(unsigned image, SimTime now);
     void touch_sound(SimTime now);
     void doze(SimTime now);
@@ -99,6 +107,8 @@ class MksBoard final : private Listener {
     FileList files;
     Previews previews;
     Calendar calendar;
+    ExternalClock external_clock;
+    GlassPoint sensor_shift;  ///< how far beside the finger the touch sensor feels it
     Watch watch;
     EepromChip eeprom;
 
@@ -106,7 +116,10 @@ class MksBoard final : private Listener {
     void raise(Event event) override;
     void watch_event(Event event);
     void note(const std::string& text) override { listener_.note(text); }
+    bool uses_external_clock() const { return settings.general.external_clock != 0 && !external_clock.dead; }
     void write_block(Block block, SimTime now);
+    /// Keeps the general settings; `done` is raised when the chip has them all. False: others are being kept.
+    bool keep_general(Event done, SimTime now);
     void sound_for(std::uint32_t time_ms);
     void read_setup(SimTime now);
     void end_setup(Event event);
@@ -126,6 +139,7 @@ class MksBoard final : private Listener {
     std::optional<AcfgReport> report_;
     bool setup_opened_ = true;
     bool dozing_ = false;
+    bool supplied_ = false;
     SimTime read_due_ = never;
     SimTime hour_due_ = never;   ///< when the working times are kept next
     SimTime panel_due_ = never;  ///< when the start comes to the panel

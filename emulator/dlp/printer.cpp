@@ -27,7 +27,7 @@ class StickSource final : public sliced::ByteSource {
     const bool& read_errors_;
 };
 
-static_assert(own_events.size() == static_cast<std::size_t>(Event::panel_failed) + 1,
+static_assert(own_events.size() == static_cast<std::size_t>(Event::touch_not_calibrated) + 1,
               "each of the board's events has its row");
 
 }  // namespace

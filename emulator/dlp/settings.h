@@ -1,7 +1,8 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
+
+#include "emulator/dlp/touch_calibration.h"
 
 namespace fauxboard::dlp {
 
@@ -51,8 +52,8 @@ struct GeneralSettings {
     std::uint8_t rotate_display = 0;
     float end_lift_mm = 40;
     std::uint8_t external_clock = 0;
-    std::array<float, 6> touch{1, 0, 0, 0, 1, 0};  ///< calibration; this is none
-    std::uint8_t fan_mode = 0;
+    TouchCalibration touch = no_calibration;
+    std::uint8_t fan_mode = 0;  ///< of the board's own fan; see MksBoard::board_fan()
     float calibrate_lift_mm = 0;
     std::uint32_t decrease_steps = 0;  ///< layers over which the exposure goes down after the bottom
 

@@ -99,7 +99,7 @@ SpiWords controller_words(std::string_view data) {
                                                  {0x11, "sleep out"},
                                                  {0x28, "display off"},
                                                  {0x29, "display on"},
-                                                 {0xB0, "read the id"},
+                                                 {id_register, "read the id"},
                                                  {0xB7, "configuration"}}};
     if (data.size() < command_bytes) {
         return {"unknown", std::to_string(data.size()) + " bytes that mean nothing", true};
@@ -116,7 +116,10 @@ SpiWords controller_words(std::string_view data) {
 
 SpiWords answer_words(const SpiRecord& record) {
     if (record.chip != ChipSelect::fpga) {
-        return {"register", "id " + (record.data.size() < 4 ? "?" : hex(number_at(record.data, 2, 2), 4)),
+        return {"register",
+                "id " + (record.data.size() < 4
+                             ? "?"
+                             : hex(byte_at(record.data, 3) * 256U + byte_at(record.data, 2), 4)),
                 false};
     }
     if (record.data.size() != command_bytes) {

@@ -7,6 +7,10 @@
 
 namespace fauxboard::dlp {
 
+/// Register of a controller that holds its id; the answer to its reading has it in bytes 2 and 3, low byte
+/// first.
+constexpr std::uint8_t id_register = 0xB0;
+
 /// Whom a transfer is for: whose chip select is low.
 enum class ChipSelect : std::uint8_t { fpga = 0, left = 1, right = 2 };
 

@@ -17,7 +17,6 @@ constexpr std::uint8_t sleep_out = 0x11;
 constexpr std::uint8_t configuration = 0xB7;
 constexpr std::uint16_t configuration_asleep = 0x0004;
 constexpr std::uint16_t configuration_awake = 0x030B;
-constexpr std::uint8_t id_register = 0xB0;
 
 bool dark(const Packet& packet) {
     return std::all_of(packet.begin() + 2, packet.end() - 2, [](std::uint8_t byte) { return byte == 0; });
@@ -33,11 +32,7 @@ void UvPanel::cut_power() {
     last_open_ = awake_ = powered_ = false;
 }
 
-/// A register of both controllers: marked as a command, then as data.
-void UvPanel::controller(std::uint8_t reg, std::uint16_t value, SimTime now) {
-    if (tap == nullptr) {
-        return;
-    }
+std::uint16_t UvPanel::controller(ChipSelect chip, std::uint8_t reg, std::uint16_t value, SimTime now) {
     const std::array<std::uint8_t, 4> out{reg, static_cast<std::uint8_t>(value & 0xFF),
                                           static_cast<std::uint8_t>(value >> 8), 0};
     std::array<std::uint8_t, 4> in{};
@@ -45,9 +40,23 @@ void UvPanel::controller(std::uint8_t reg, std::uint16_t value, SimTime now) {
         in[2] = controller_id & 0xFF;
         in[3] = controller_id >> 8;
     }
-    for (const ChipSelect chip : {ChipSelect::left, ChipSelect::right}) {
+    if (tap != nullptr) {
         tap->transfer(now, chip, out, in);
     }
+    return static_cast<std::uint16_t>(in[3] << 8 | in[2]);
+}
+
+void UvPanel::controllers(std::uint8_t reg, std::uint16_t value, SimTime now) {
+    for (const ChipSelect chip : {ChipSelect::left, ChipSelect::right}) {
+        static_cast<void>(controller(chip, reg, value, now));
+    }
+}
+
+/// Both are asked, also when the first has none.
+bool UvPanel::both_have_ids(SimTime now) {
+    const bool left = controller(ChipSelect::left, id_register, 0, now) == controller_id;
+    const bool right = controller(ChipSelect::right, id_register, 0, now) == controller_id;
+    return left && right;
 }
 
 /// A transfer with the FPGA, of which others may know.
@@ -79,8 +88,7 @@ bool UvPanel::set_up(bool clean, SimTime now) {
     if (tap != nullptr) {
         tap->reset(now, false);
     }
-    controller(id_register, 0, now);
-    if (id_missing) {
+    if (!both_have_ids(now)) {
         powered_ = false;
         return false;
     }
@@ -92,16 +100,16 @@ bool UvPanel::set_up(bool clean, SimTime now) {
 }
 
 void UvPanel::wake(SimTime now) {
-    controller(display_on, 0, now);
-    controller(sleep_out, 0, now);
-    controller(configuration, configuration_awake, now);
+    controllers(display_on, 0, now);
+    controllers(sleep_out, 0, now);
+    controllers(configuration, configuration_awake, now);
     awake_ = powered_;
 }
 
 void UvPanel::sleep(SimTime now) {
-    controller(display_off, 0, now);
-    controller(sleep_in, 0, now);
-    controller(configuration, configuration_asleep, now);
+    controllers(display_off, 0, now);
+    controllers(sleep_in, 0, now);
+    controllers(configuration, configuration_asleep, now);
     awake_ = false;
 }
 

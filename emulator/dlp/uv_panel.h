@@ -66,7 +66,11 @@ class UvPanel {
     void transfer(std::span<const std::uint8_t> out, std::span<std::uint8_t> in, SimTime now);
     /// Sends the packet at hand.
     void packet(SimTime now);
-    void controller(std::uint8_t reg, std::uint16_t value, SimTime now);
+    /// A register of one controller; what it answers.
+    std::uint16_t controller(ChipSelect chip, std::uint8_t reg, std::uint16_t value, SimTime now);
+    /// The same of both, whatever they answer.
+    void controllers(std::uint8_t reg, std::uint16_t value, SimTime now);
+    bool both_have_ids(SimTime now);
 
     Fpga fpga_;
     Counters counters_;

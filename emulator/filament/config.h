@@ -42,7 +42,8 @@ struct ProcedureStep {
     machine::EventId event = nullptr;  ///< raise
     bool together = false;             ///< home: all axes at the same time
     double bump_s = -1;  ///< home: second, slow touch of the end stops; < 0: as for every axis of the machine
-    int mesh_point = -1;  ///< probe: what it measures is that point of the mesh, 0 to 8
+    int mesh_point = -1;   ///< probe: what it measures is that point of the mesh, 0 to 8
+    bool repeats = false;  ///< probe: one of a series at this place
 };
 using Procedure = std::vector<ProcedureStep>;
 
@@ -59,6 +60,7 @@ struct MotionConfig {
     std::array<std::array<double, 3>, 3> bed_mesh_mm{};
     double probe_trigger_mm = 2.5;  ///< logical Z at which the probe touches the nominal plane
     std::array<double, 2> probe_offset_mm{-38.2, 0};
+    double probe_spread_mm = 0;  ///< standard deviation of touches at one place (M48); all else is exact
     /// The motors switch themselves off so long after the last move, unless a job is under way; 0: never.
     double idle_off_s = 0;
     std::map<std::string, Procedure, std::less<>> procedures;

@@ -11,6 +11,7 @@ inline constexpr auto own_events = std::to_array<machine::EventInfo>({
     {"motion.bad_arc", "a G2 or G3 has no usable centre; nothing moves"},
     {"motion.cold", "filament was to be moved through a nozzle that is too cold (extruder.min); it is not"},
     {"motion.too_long", "more filament was to be moved at once than the board allows; it is not"},
+    {"motion.touched", "one of the touches that M48 asked for"},
     {"motion.repeated", "one point has been probed as often as was asked for (M48)"},
     {"motion.bed_probed", "the nine points of the bed have been probed"},
     {"motion.probed", "the probe has measured one point"},

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "emulator/filament/arc.h"
+#include "emulator/filament/autotune.h"
 #include "emulator/filament/names.h"
 #include "emulator/machine/commands.h"
 #include "emulator/machine/job_control.h"
@@ -49,6 +50,7 @@ struct GcodeMachine {
     ExtrusionGuard& guard;
     ToldText& told;
     const MotionConfig& config;
+    Autotune& autotuned;
 };
 
 /// Where codes come from (the file of a job, the USB side): each does one thing after the other.

@@ -33,7 +33,9 @@ void tune(GcodeSource& r, Line line) {
     constexpr double usual_bed_c = 70;
     const HeaterId heater = line.number('E') < 0 ? HeaterId::bed : HeaterId::nozzle;
     const double usual_c = heater == HeaterId::bed ? usual_bed_c : usual_nozzle_c;
-    r.on.thermal.set_target(heater, line.number('S', usual_c));
+    const double c = line.number('S', usual_c);
+    r.on.autotuned = autotune(r.on.thermal.plant(heater), c, heater == HeaterId::bed);
+    r.on.thermal.set_target(heater, c);
     r.on.wait.start(heater, r.now, r.on.events);
 }
 

@@ -103,6 +103,7 @@ void probe(GcodeSource& r, Line line, int times, EventId done) {
         ProcedureStep touch;
         touch.kind = ProcedureStep::Kind::probe;
         touch.seconds = probing_s;
+        touch.repeats = times > 1;
         way.push_back(touch);
         step.kind = ProcedureStep::Kind::by;
         step.values = {std::nullopt, std::nullopt, probing_lift_mm, std::nullopt};
@@ -120,7 +121,9 @@ void probe_once(GcodeSource& r, Line line) {
 }
 
 void probe_again_and_again(GcodeSource& r, Line line) {
-    probe(r, line, percent(line.number('P', 10), 4, 25), event("motion.repeated"));
+    const int times = percent(line.number('P', 10), 4, 25);
+    r.on.motion.series.begin(times);
+    probe(r, line, times, event("motion.repeated"));
 }
 
 void probe_bed(GcodeSource& r, Line) {

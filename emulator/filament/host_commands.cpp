@@ -10,7 +10,8 @@
 namespace fauxboard::filament {
 namespace {
 
-constexpr int end_of_file = 29;  ///< M29
+constexpr int end_of_file = 29;   ///< M29
+constexpr int log_to_file = 928;  ///< M928
 
 }  // namespace
 
@@ -19,7 +20,7 @@ void HostCommands::power_on() {
     source_.arc.clear();
     source_.wake = SimTime{0};
     source_.moves = 0;
-    waits_ = yields_ = writing_ = false;
+    waits_ = yields_ = writing_ = runs_too_ = false;
     wait_busy_ = never;
     unwritten_.clear();
     busy_s_ = config_.busy_s;
@@ -47,7 +48,7 @@ bool HostCommands::ready(std::size_t from, std::string_view command, SimTime now
         return false;
     }
     waits_ = false;
-    if (writing(from)) {
+    if (writing(from) && !runs_too_) {
         return true;  // it moves nothing, so it need not wait for what moves
     }
     parse(command);
@@ -114,6 +115,7 @@ void HostCommands::follow_transfer() {
     if (open != writing_) {
         writing_ = open;
         writer_ = speaker;
+        runs_too_ = open && line_.letter == 'M' && line_.code == log_to_file;
         unwritten_.clear();
     }
 }
@@ -126,12 +128,14 @@ bool HostCommands::write(std::string_view command, SimTime now) {
         flush(now);
         return false;
     }
-    code_ = nullptr;                            // it is a text now, and over at once
+    if (!runs_too_) {
+        code_ = nullptr;  // it is a text now, and over at once
+    }
     unwritten_.append(command).append("\r\n");  // as Marlin ends them
     if (unwritten_.size() >= block_bytes) {
         flush(now);
     }
-    return true;
+    return !runs_too_;
 }
 
 /// What is not on the disk yet goes there.

@@ -80,6 +80,7 @@ class HostCommands final : public machine::HostSide {
     bool user_before_ = false;
     bool writing_ = false;
     std::size_t writer_ = 0;
+    bool runs_too_ = false;  ///< what is written (M928)
     std::string unwritten_;  ///< of the file; less than a block and a line
     double busy_s_ = 0;
     SimTime busy_ = never;       ///< when the host is told next that it has to wait

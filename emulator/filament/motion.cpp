@@ -31,8 +31,9 @@ double trapezoid_s(double distance, double feed, double acceleration) {
 
 }  // namespace
 
-Motion::Motion(const MotionConfig& config, const Settings& settings)
-    : config_(config),
+Motion::Motion(const MotionConfig& config, const Settings& settings, std::uint64_t seed)
+    : series(seed),
+      config_(config),
       settings_(settings),
       planner_(settings),
       offset_(config.power_on_mm),
@@ -100,12 +101,15 @@ int Motion::take_lost_rounds() {
 }
 
 MoveOutcome Motion::move(const MoveRequest& request, SimTime now, EventQueue& events) {
-    if (request.feed_mm_min && std::isfinite(*request.feed_mm_min) && *request.feed_mm_min > 0) {
-        modal_feed_ = std::min(*request.feed_mm_min / 60.0, far_mm);
-    }
     ProcedureStep step;
     step.kind = Kind::to;
     step.feed_mm_s = modal_feed_;
+    if (request.feed_mm_min && std::isfinite(*request.feed_mm_min) && *request.feed_mm_min > 0) {
+        step.feed_mm_s = std::min(*request.feed_mm_min / 60.0, far_mm);
+    }
+    if (!request.feed_passes) {
+        modal_feed_ = step.feed_mm_s;
+    }
     bool any = false;
     MoveOutcome outcome = MoveOutcome::accepted;
     for (std::size_t i = 0; i < axis_count; ++i) {
@@ -288,7 +292,7 @@ void Motion::finish(EventQueue& events) {
     executed_ = step.target;
     switch (step.what.kind) {
         case Kind::probe:
-            note_probed(step);
+            note_probed(step, events);
             accepted_ = step.target;
             break;
         case Kind::zero:
@@ -311,12 +315,16 @@ void Motion::finish(EventQueue& events) {
     accept_ahead();
 }
 
-void Motion::note_probed(const Step& step) {
+void Motion::note_probed(const Step& step, EventQueue& events) {
     const double height = step.target[z_axis] - config_.probe_trigger_mm;
     probed_ = {step.target[0] + config_.probe_offset_mm[0], step.target[1] + config_.probe_offset_mm[1],
                height};
     if (step.what.mesh_point >= 0) {
         mesh.mm[static_cast<std::size_t>(step.what.mesh_point)] = height;
+    }
+    if (step.what.repeats) {
+        series.add(height, config_.probe_spread_mm);
+        events.raise(event("motion.touched"));
     }
 }
 

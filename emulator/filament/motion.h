@@ -9,6 +9,7 @@
 #include "emulator/filament/config.h"
 #include "emulator/filament/names.h"
 #include "emulator/filament/planner.h"
+#include "emulator/filament/probe_series.h"
 #include "emulator/filament/state.h"
 #include "emulator/filament/travel.h"
 
@@ -18,6 +19,7 @@ namespace fauxboard::filament {
 struct MoveRequest {
     AxisTargets values{};               ///< mm, absolute or relative as G90/G91 say
     std::optional<double> feed_mm_min;  ///< F; stays in force for later moves
+    bool feed_passes = false;           ///< it does not
     bool force_relative = false;        ///< move by `values` whatever G90/G91 say
     bool limits = true;                 ///< keep inside the build volume (software end stops)
 };
@@ -39,7 +41,7 @@ enum class MoveOutcome : std::uint8_t { accepted, clamped, queue_full };
 /// the feed of the move being *executed*; so the position runs ahead of the feed by the planner's buffer.
 class Motion {
   public:
-    Motion(const MotionConfig& config, const Settings& settings);
+    Motion(const MotionConfig& config, const Settings& settings, std::uint64_t seed = 0);
 
     /// The board forgets where it is; the head stays where it stands.
     void power_on();
@@ -119,6 +121,7 @@ class Motion {
     Mesh mesh;
     /// The point that was probed last: where the probe touched, and the height it found there, mm.
     const std::array<double, 3>& probed_mm() const { return probed_; }
+    ProbeSeries series;  ///< the touches of M48
     /// Rounds that the schedule is to leave out; asking takes them.
     int take_lost_rounds();
 
@@ -136,7 +139,7 @@ class Motion {
     void accept_ahead();
     void begin(SimTime now, EventQueue& events);
     void finish(EventQueue& events);
-    void note_probed(const Step& step);
+    void note_probed(const Step& step, EventQueue& events);
     /// Whether the step under way ends without its switch having triggered; then all is dropped.
     bool fails(const Step& step, EventQueue& events);
     bool dead_endstop(std::size_t axis) const { return faults_.dead_motors || faults_.dead_endstops[axis]; }

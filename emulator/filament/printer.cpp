@@ -10,12 +10,12 @@ namespace fauxboard::filament {
 Printer::Printer(std::shared_ptr<const Config> shared, const machine::Services& services, std::uint64_t seed)
     : Machine(kind_row(), std::move(shared), services, seed, host),
       thermal(config().thermal, seed),
-      motion(config().motion, settings),
+      motion(config().motion, settings, seed),
       moves(config().motion, leveling, motion, events, loop),
       feeder(config().filament),
       wait(config().heating),
-      gcode{motion, moves,  thermal, wait,     mixer, fans,  settings, modal,
-            job,    events, *this,   commands, host,  guard, told,     config().motion},
+      gcode{motion, moves, thermal,  wait, mixer, fans, settings,        modal,    job,
+            events, *this, commands, host, guard, told, config().motion, autotuned},
       runner(gcode, storage, config().job),
       host(gcode, transfer, config().host),
       recovery(gcode, storage, runner, config().job) {

@@ -70,6 +70,7 @@ class Printer final : public machine::Machine {
     Fans fans;
     Filament filament;
     GcodeModal modal;
+    Autotune autotuned;  ///< what M303 found last
     GcodeMachine gcode;  ///< all that codes act on
     JobRunner runner;
     HostCommands host;

@@ -60,6 +60,7 @@ class Thermal {
     /// whether that changed it.
     bool set_target(HeaterId id, double c);
     double target_c(HeaterId id) const { return heater(id).target_c; }
+    const PlantConfig& plant(HeaterId id) const { return heater(id).config->plant; }
     bool heating(HeaterId id) const { return heater(id).target_c != 0; }
 
     /// What is at the sensor's place, at the last measurement.

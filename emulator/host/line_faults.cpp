@@ -15,6 +15,10 @@ fault::FaultSpec LineFaults::placed(fault::FaultSpec spec) const {
 }
 
 fault::FaultControl& LineFaults::line_of(const fault::FaultSpec& spec) {
+    if (!has_main_ && usb_ == nullptr) {
+        throw fault::FaultSpecError({fmt::format("fault \"{}\": this board has no line that it could spoil",
+                                                 fault::fault_to_text(spec))});
+    }
     if (spec.line.value_or(fault::Line::main) == fault::Line::main) {
         if (!has_main_ && usb_ != nullptr) {
             throw fault::FaultSpecError({fmt::format(

@@ -350,6 +350,15 @@ void Compiler::display_rest(const Json& node) {
         reader.text(key, name);
         if (reader.has(key)) *id = value(name, reader.pointer(key));
     }
+    if (const Json* felt = reader.get("felt")) {
+        if (!felt->is_array() || felt->size() != 2) {
+            findings.add(reader.pointer("felt"), "expected two expressions, for x and for y");
+        } else {
+            for (const Json& one : *felt) {
+                out.felt.push_back(expression(one, reader.pointer("felt"), {}));
+            }
+        }
+    }
     out.draw = figures(reader, "draw", {});
     if (const Json* title = reader.get("title")) {
         ObjectReader keys(*title, reader.pointer("title"), findings);

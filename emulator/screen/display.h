@@ -216,8 +216,9 @@ struct Display {
     Expression language;
     Expression rotated;  ///< not 0: turned by 180 degrees, with the touches
     Finger finger;
-    std::optional<std::size_t> touch_x;  ///< values that hold where the finger is; 0: nowhere
+    std::optional<std::size_t> touch_x;  ///< values that hold where the finger is, or was; 0: nowhere yet
     std::optional<std::size_t> touch_y;
+    std::vector<Expression> felt;  ///< x and y at which the program takes it to be; none: where it is
     std::vector<ControlStyle> looks;
     std::vector<std::string> look_names;
     std::vector<Icon> icons;

@@ -31,7 +31,9 @@ std::string read_whole(const ByteSource& source, const Region& region, std::span
 
 std::string wrong_number(std::string_view name, std::uint64_t at, std::uint64_t value, std::uint64_t lowest,
                          std::uint64_t highest) {
-    return fmt::format("The {} (at 0x{:X}) is {}; it can be {} to {}.", name, at, value, lowest, highest);
+    const std::string range =
+        lowest == highest ? fmt::format("only {}", lowest) : fmt::format("{} to {}", lowest, highest);
+    return fmt::format("The {} (at 0x{:X}) is {}; it can be {}.", name, at, value, range);
 }
 
 std::string wrong_measure(std::string_view name, std::uint64_t at, float value, float lowest, float highest) {

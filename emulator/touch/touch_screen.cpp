@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "emulator/behaviour/nearest.h"
 #include "emulator/touch/machine_link.h"
@@ -21,6 +22,11 @@ namespace {
 /// Pages that open pages while they open, and so on.
 constexpr int most_openings = 8;
 constexpr SimTime longest_touch = std::chrono::hours(1);
+
+/// The nearest of so many pixels, whatever the number is.
+int pixel(double where, int of) {
+    return where > 0 ? static_cast<int>(std::lround(std::min(where, of - 1.0))) : 0;
+}
 
 }  // namespace
 
@@ -42,8 +48,7 @@ void TouchScreen::power_on(SimTime now, ActionContext& context) {
     touched_ = idle_not_before_ = now;
     on_ = true;
     if (const auto contact = finger_.contact(now)) {
-        if (display().touch_x) values_[*display().touch_x].number = contact->x;
-        if (display().touch_y) values_[*display().touch_y].number = contact->y;
+        keep_place(*contact);
     }
     refresh(context.machine);
     run(display().power_on, {}, context);
@@ -133,7 +138,9 @@ TouchScreen::Touched TouchScreen::touch(SimTime now, const machine::Machine& mac
         return {fmt::format("There is no control \"{}\" on {}{}; it has {}.", name.substr(0, 60),
                             here.box ? "the box \"" + here.box->caption + "\"" : "the page " + here.page,
                             near.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", near),
-                            names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))),
+                            !names.empty()  ? fmt::format("{}", fmt::join(names, ", "))
+                            : layers_.cover ? "none: a touch anywhere lifts it"
+                                            : "none"),
                 now};
     }
     int x = control->at.x + control->at.width / 2;
@@ -145,6 +152,22 @@ TouchScreen::Touched TouchScreen::touch(SimTime now, const machine::Machine& mac
     return touch(now, x, y, how_long);
 }
 
+void TouchScreen::keep_place(const Contact& contact) {
+    if (display().touch_x) values_[*display().touch_x].number = contact.x;
+    if (display().touch_y) values_[*display().touch_y].number = contact.y;
+}
+
+std::pair<int, int> TouchScreen::felt(const screen::Scene& here) const {
+    int x = finger_.felt().x;
+    int y = finger_.felt().y;
+    if (!display().felt.empty()) {
+        const Scope scope{values_, 0, {}, 0};
+        x = pixel(display().felt[0].evaluate(scope), here.width);
+        y = pixel(display().felt[1].evaluate(scope), here.height);
+    }
+    return here.rotated ? std::pair{here.width - 1 - x, here.height - 1 - y} : std::pair{x, y};
+}
+
 void TouchScreen::press(ActionContext& context) {
     layers_.pressed.reset();
     swallowed_ = layers_.cover.has_value();
@@ -152,13 +175,9 @@ void TouchScreen::press(ActionContext& context) {
         uncover(context);
         return;
     }
+    keep_place(finger_.felt());
     const screen::Scene here = scene(context.machine);
-    int x = finger_.felt().x;
-    int y = finger_.felt().y;
-    if (here.rotated) {
-        x = here.width - 1 - x;
-        y = here.height - 1 - y;
-    }
+    const auto [x, y] = felt(here);
     const screen::SceneControl* hit = here.hit(x, y);
     if (hit == nullptr || !hit->enabled) {
         return;

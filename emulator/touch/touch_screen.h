@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "emulator/board/front.h"
@@ -49,6 +50,9 @@ class TouchScreen final : public board::Front {
     SimTime idle_due(const machine::Machine& machine) const;
     void fall_idle(SimTime now, behaviour::ActionContext& context);
 
+    void keep_place(const Contact& contact);
+    /// Where the program takes the finger to be on the picture as it is drawn.
+    std::pair<int, int> felt(const screen::Scene& here) const;
     void press(behaviour::ActionContext& context);
     void hold(SimTime now, behaviour::ActionContext& context);
     void release(behaviour::ActionContext& context);

@@ -26,7 +26,7 @@ struct Broken : std::runtime_error {
 };
 
 /// One board with all that can happen to it: a screen, a host and a network that behave and misbehave, a
-/// disk, an EEPROM, the power, breakdowns of the printer, and time that crawls or jumps. No clock, no I/O.
+/// disk, an EEPROM, the power, faults of the printer, and time that crawls or jumps. No clock, no I/O.
 ///
 /// What happens is drawn from the seed and the number of each step alone, so that leaving out other steps
 /// changes nothing of it. Every call may throw Broken.

@@ -265,6 +265,23 @@ const std::vector<ActionRow> board_rows{
          refused(b, R"({"clock.set": {"year": 2023, "month": 2, "day": 29, "hour": 0, "minute": 0}})",
                  "no such date");
      }},
+    {"touch.calibrate",
+     [](Bench& b) {
+         b.run(R"({"touch.calibrate": {"x1": 442, "y1": 160, "x2": 250, "y2": 288, "x3": 58, "y3": 32}})");
+         CHECK(b.number("setup.touch_xx") == doctest::Approx(1));
+         CHECK(b.number("setup.touch_x0") == doctest::Approx(-10));
+         CHECK(b.number("setup.touch_yy") == doctest::Approx(1));
+         CHECK_FALSE(b.raised(event("touch.calibrated")));  // not before it is kept
+         b.pass(2);
+         CHECK(b.raised(event("touch.calibrated")));
+         refused(b, R"({"touch.calibrate": {"x1": 1, "y1": 1, "x2": 2, "y2": 2, "x3": 3, "y3": 3}})",
+                 "lie in one line");
+     }},
+    {"touch.reset",
+     [](Bench& b) {
+         b.run(R"([{"set": {"setup.touch_xx": 3}}, "touch.reset"])");
+         CHECK(b.number("setup.touch_xx") == 1);
+     }},
     {"buzzer.touch",
      [](Bench& b) {
          b.run(R"("buzzer.touch")");

@@ -75,7 +75,7 @@ struct A30 {
         driver->run_until(4);
     }
     void say(const std::string& line) { driver->feed(line + "\r\n"); }
-    /// All that is said within `seconds` from now, a line each, but for the wheel's L1 and L2.
+    /// All that is said within `seconds` from now, a line each, but for the schedule's L1 and L2.
     std::string after(const std::string& line, double seconds) {
         const double from = driver->now();
         say(line);

@@ -67,6 +67,18 @@ class Board:
                     yield entry["from"] == "host", entry["line"]
 
 
+def is_number(text):
+    """Of the line's digits alone: to Python a superscript two, which one flipped bit makes of a 2, is one too."""
+    return text.isascii() and text.isdigit()
+
+
+def said_behind(talk, command, lines=12):
+    """What was said around the last time that this command was heard, for somebody who must find out why it was
+    the last that counted."""
+    at = max((i for i, (from_host, line) in enumerate(talk) if from_host and command in line), default=0)
+    return "\n".join(f"{'> ' if from_host else '< '}{line!r}" for from_host, line in talk[max(0, at - 3) : at + lines])
+
+
 def accepted(talk):
     """The numbered commands that a board must have carried out, in order: by the rules of line numbers and
     checksums alone, whatever this one did."""
@@ -74,12 +86,12 @@ def accepted(talk):
     for from_host, line in talk:
         number, _, rest = line.lstrip(" ").partition(" ")
         body, star, checksum = rest.rpartition("*")
-        if not from_host or not number.startswith("N") or not star or not checksum.isdigit():
+        if not from_host or not number.startswith("N") or not star or not is_number(checksum):
             continue
         total = 0
         for byte in line[: line.rindex("*")].encode("latin-1"):
             total ^= byte
-        if total != int(checksum) or not number[1:].lstrip("-").isdigit():
+        if total != int(checksum) or not is_number(number[1:].lstrip("-")):
             continue
         if body.startswith("M110"):
             _, n, new = body.partition("N")

@@ -12,7 +12,7 @@ except ImportError as missing:
     print(f"skipped: {missing}; Debian's packages are printrun-common and python3-serial")
     sys.exit(77)
 
-from board import Board, accepted
+from board import Board, accepted, said_behind
 from printer import Printer
 
 # The long print; FAUXBOARD_MOVES=60000 takes printcore some five minutes.
@@ -78,7 +78,10 @@ class Client:
             finally:
                 printer.leave()
         self.assertEqual(board.code, 0)
-        self.assertEqual(moves_of(accepted(board.talk)), moves_of(lines))
+        by_the_rules = moves_of(accepted(board.talk))
+        if by_the_rules != moves_of(lines):
+            self.fail(f"{len(by_the_rules)} of {moves} moves; behind the last of them\n"
+                      + said_behind(board.talk, by_the_rules[-1] if by_the_rules else "M110"))
         return resent
 
     def test_connects_and_prints(self):

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -114,6 +115,24 @@ TEST_CASE("settings files: what was written, what is in force, which lines were 
     CHECK(box_text(report.result) == "Parameter value is invalid");
 }
 
+TEST_CASE("settings files: one without end is read no further than any settings file goes") {
+    std::size_t given = 0;
+    Settings settings;
+    const AcfgReport report = read_acfg(
+        [&](char* out, std::size_t room) {
+            std::fill_n(out, room, '\n');
+            given += room;
+            return room;
+        },
+        settings, Firmware::v001);
+    CHECK(report.too_large);
+    CHECK(report.result == AcfgResult::invalid_value);
+    CHECK(report.line == acfg_most_bytes + 1);
+    CHECK(given < 2 * acfg_most_bytes);
+    std::string most(acfg_most_bytes - 1, '\n');
+    CHECK(read_acfg(most, settings, Firmware::v001).result == AcfgResult::ok);
+}
+
 TEST_CASE("settings files of 0.08: more names, other bounds") {
     Settings settings = default_settings(Firmware::v008);
     const AcfgReport report = read_acfg(
@@ -129,4 +148,25 @@ TEST_CASE("settings files of 0.08: more names, other bounds") {
     CHECK(settings.general.end_lift_mm == 0.1F);
     CHECK(settings.general.fan_mode == 3);
     CHECK(settings.general.decrease_steps == 20);
+}
+
+TEST_CASE("settings files of 0.08: the file that 0.01 refuses on line 176 is taken whole") {
+    const json file = load();
+    const json& vectors = file.at("vectors");
+    const auto hit = std::find_if(vectors.begin(), vectors.end(), [](const json& vector) {
+        return vector.at("name").get<std::string>().starts_with("a whole file, as boards of 0.08");
+    });
+    REQUIRE(hit != vectors.end());
+    Settings settings = default_settings(Firmware::v008);
+    const AcfgReport report =
+        read_acfg(bytes_of(hit->at("input").get<std::string>()), settings, Firmware::v008);
+    CHECK(report.result == AcfgResult::ok);
+    CHECK(report.taken.size() == 29);
+    CHECK(settings.motor.max_pos_mm == 150);
+    CHECK(settings.motor.acceleration == 2);
+    CHECK(settings.general.screensaver_ms == 600'000);
+    CHECK(settings.general.external_clock == 1);
+    CHECK(settings.general.calibrate_lift_mm == 30);
+    CHECK(settings.general.fan_mode == 2);
+    CHECK(settings.general.decrease_steps == 15);
 }

@@ -17,6 +17,10 @@ struct Listening final : SpiTap {
     void transfer(SimTime now, ChipSelect chip, std::span<const std::uint8_t> out,
                   std::span<std::uint8_t> in) override {
         if (read_back && in.size() == 3 && out[0] == 0x80) in[2] = *read_back;
+        if (right_id && chip == ChipSelect::right && out[0] == id_register) {
+            in[2] = *right_id & 0xFF;
+            in[3] = static_cast<std::uint8_t>(*right_id >> 8);
+        }
         records.push_back({SpiKind::out, chip, false, 0, now, std::string(out.begin(), out.end())});
         if (std::any_of(in.begin(), in.end(), [](std::uint8_t byte) { return byte != 0; })) {
             records.push_back({SpiKind::in, chip, false, 0, now, std::string(in.begin(), in.end())});
@@ -39,6 +43,7 @@ struct Listening final : SpiTap {
     std::vector<SpiRecord> records;
     std::function<bool(bool)> says;
     std::optional<std::uint8_t> read_back;
+    std::optional<std::uint16_t> right_id;
 };
 
 Packet line_of(std::uint8_t byte) {
@@ -124,6 +129,28 @@ TEST_CASE("SPI: the panel is set up in the board's order") {
                                           "read back: which command?",
                                           "read back: 02: bank 0, scan off, SDRAM off, version 2"};
     CHECK(wires.words() == wanted);
+}
+
+TEST_CASE("SPI: the ids of the controllers are what the wires bring") {
+    UvPanel panel(1, 2);
+    Listening wires;
+    panel.tap = &wires;
+    wires.right_id = 0x2829;
+    CHECK_FALSE(panel.set_up(true, ms(300)));
+    CHECK_FALSE(panel.powered());
+    const auto words = wires.words();
+    CHECK(std::count(words.begin(), words.end(), "register: id 2828") == 1);
+    CHECK(std::count(words.begin(), words.end(), "register: id 2829") == 1);
+    panel.id_missing = true;  // of the one made up here: whoever is at the other end has his own
+    wires.right_id = 0x2828;
+    CHECK_FALSE(panel.set_up(true, ms(300)));
+    panel.id_missing = false;
+    CHECK(panel.set_up(true, ms(300)));
+    CHECK(panel.powered());
+    panel.tap = nullptr;
+    CHECK(panel.set_up(true, ms(300)));
+    panel.id_missing = true;
+    CHECK_FALSE(panel.set_up(true, ms(300)));
 }
 
 TEST_CASE("SPI: lines, retries and commands in words") {

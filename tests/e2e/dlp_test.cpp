@@ -1,6 +1,7 @@
 // The MKS DLP board as the real program: a print with what its panel shows, its settings files, its EEPROM.
 
 #include <md5.h>
+#include <sys/stat.h>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -132,6 +133,12 @@ TEST_CASE("check tells of a settings file what the board would") {
     CHECK(contains(run({"check", folder.file("bad.acfg")}).out,
                    "Error in settings file / on line 3 : / Unknown parameter name"));
     CHECK(run({"check", folder.file("none.acfg"), "--json"}).code == bad_input);
+    CHECK(contains(run({"check", folder.file("none.acfg")}).out, "none.acfg: there is no such file\n"));
+    REQUIRE(::mkfifo(folder.file("pipe.acfg").c_str(), 0600) == 0);
+    CHECK(run({"check", folder.file("pipe.acfg")}).code == bad_input);  // and does not wait for a writer
+    CHECK(run({"check", "/dev/zero.acfg"}).code == bad_input);
+    write_bytes(folder.file("large.acfg"), std::string(2UL << 20, '\n'));
+    CHECK(contains(run({"check", folder.file("large.acfg")}).out, "which no settings file is"));
 }
 
 TEST_CASE("killed at any moment, the EEPROM holds what the chip would, and the board starts from it") {
@@ -171,7 +178,14 @@ TEST_CASE("the MKS DLP board: what cannot be is said") {
                     {{"run", "--profile", "mks-dlp", "--eeprom", folder.file("short")},
                      bad_input,
                      "the chip has 2048 bytes, and this file 10"},
+                    {{"run", "--profile", "mks-dlp", "--fault", "garble"},
+                     usage,
+                     "this board has no line that it could spoil"},
                     {{"run", "--panel", folder.file("shown")}, bad_input, "has no UV panel"}});
+    // And nothing is said of lines that it does not have.
+    const Result brief = run({"run", "-q", "--profile", "mks-dlp", "--duration", "1s", "--speed", "max"});
+    CHECK(brief.code == 0);
+    CHECK(brief.errors.ends_with("\nAfter 1.000 s.\n"));
 }
 
 }  // namespace

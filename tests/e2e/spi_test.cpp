@@ -2,6 +2,7 @@
 
 #include <sys/socket.h>
 
+#include <atomic>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -52,12 +53,13 @@ std::vector<SpiRecord> records_of(const std::string& file) {
 /// The other end: an FPGA that takes each packet at its second try, and has version 5.
 class Model {
   public:
-    explicit Model(const std::string& address) {
+    explicit Model(const std::string& address, bool with_controllers = false) {
         const link::SocketAddress where = link::resolve(address, SOCK_STREAM).front();
         fd_.reset(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
         REQUIRE(::connect(fd_.get(), where.get(), where.size()) == 0);
         say({SpiKind::pin, ChipSelect::fpga, true, 0, dlp::SimTime{0}, {}});
         say({SpiKind::in, ChipSelect::fpga, false, 0, dlp::SimTime{0}, {}});
+        if (with_controllers) say({SpiKind::in, ChipSelect::left, false, 0, dlp::SimTime{0}, {}});
     }
     /// Answers until the other end closes.
     void serve() {
@@ -70,9 +72,14 @@ class Model {
     }
     std::size_t packets = 0;
     std::size_t repeats = 0;
+    std::atomic<bool> has_ids{true};
 
   private:
     void take(const SpiRecord& record) {
+        if (record.kind == SpiKind::out && record.chip != ChipSelect::fpga &&
+            record.data.starts_with(static_cast<char>(dlp::id_register)) && has_ids) {
+            say({SpiKind::in, record.chip, false, record.number, dlp::SimTime{0}, {0, 0, '\x28', '\x28'}});
+        }
         if (record.kind != SpiKind::out || record.chip != ChipSelect::fpga) return;
         if (record.data.size() == dlp::packet_bytes) {
             ++packets;
@@ -157,6 +164,30 @@ TEST_CASE("run --spi HOST:PORT: a model at the other end says what the pin and t
     CHECK(code == 0);
     CHECK(model.repeats >= 5120);
     CHECK(model.packets == model.repeats * 2);
+}
+
+TEST_CASE("run --spi HOST:PORT: who plays the controllers and does not give their ids has no panel") {
+    const TemporaryFolder folder;
+    Program board(
+        {"run", "--profile", "mks-dlp", "-q", "--spi", "127.0.0.1:0", "--control", folder.file("control")});
+    const json ready = board.ready();
+    const auto ctl = [&](Args words) {
+        words.insert(words.begin(), {"ctl", folder.file("control")});
+        return run(words).out;
+    };
+    Model model(ready["spi"]["path"].get<std::string>(), true);
+    std::thread serving([&] { model.serve(); });
+    ctl({"advance", "5s"});
+    for (const bool there : {false, true, false}) {
+        CAPTURE(there);
+        model.has_ids = there;
+        ctl({"do", "board.doze"});
+        ctl({"do", "board.wake"});
+        CHECK(contains(ctl({"get", "panel.powered"}), there ? "true" : "false"));
+    }
+    CHECK(board.stop() == 0);
+    serving.join();
+    CHECK(contains(board.errors(), "no longer says the ids of the controllers: they are missing."));
 }
 
 TEST_CASE("run --spi pty: whoever listens hears it, and what it says in vain does no harm") {

@@ -56,6 +56,11 @@ TEST_CASE("on a board with the USB side alone a fault that names no line is for 
 
 TEST_CASE("a fault for a line that is not there is refused, and nothing is changed") {
     testing::LooseFaults main;
+    LineFaults none(main, nullptr, false);
+    CHECK_THROWS_WITH_AS(none.add(fault::fault_from_text("garble")),
+                         "fault \"garble\": this board has no line that it could spoil",
+                         fault::FaultSpecError);
+    CHECK(main.list().empty());
     LineFaults all(main, nullptr);
     all.add(fault_from_text("drop"));
     CHECK_THROWS_WITH_AS(all.add(fault_from_text("drop:line=usb")), doctest::Contains("no USB side here"),

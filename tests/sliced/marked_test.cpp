@@ -185,7 +185,7 @@ TEST_CASE("sliced, hostile: a .pws of another version or with a wrong mark is re
         poke(bytes, at, value);
         return read_bounded(bytes);
     };
-    CHECK(problem_with(12, 516) == "The version of a .pws (at 0xC) is 516; it can be 1 to 1.");
+    CHECK(problem_with(12, 516) == "The version of a .pws (at 0xC) is 516; it can be only 1.");
     CHECK(problem_with(made.info, 0) == "The section HEADER at byte 48 does not begin with the mark HEADER.");
     CHECK(problem_with(made.table + 16, 0).find("number of layers") != std::string::npos);
     CHECK(problem_with(made.table + 16, 0xFFFF'FFFF).find("section LAYERDEF would take") !=

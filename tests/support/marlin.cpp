@@ -32,8 +32,10 @@ std::string marlin_profile() {
     return vector_file().at("profile");
 }
 
-MarlinBench::MarlinBench(const std::string& profile)
-    : board_(shipped_profile(profile), {&card, nullptr, nullptr, nullptr}, board::Options{}) {
+MarlinBench::MarlinBench(const std::string& profile) : MarlinBench(shipped_profile(profile)) {}
+
+MarlinBench::MarlinBench(std::shared_ptr<const behaviour::Profile> profile)
+    : board_(std::move(profile), {&card, nullptr, nullptr, nullptr}, board::Options{}) {
     put("TEST.GCO", std::string(1233, ';') + "\n");
     board_.connect(board::Channel::host, true);
     board_.power_on(machine::SimTime{0});

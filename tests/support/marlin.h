@@ -25,6 +25,7 @@ class MarlinBench {
   public:
     /// One second after power-on, with a card that holds TEST.GCO of 1234 bytes.
     explicit MarlinBench(const std::string& profile);
+    explicit MarlinBench(std::shared_ptr<const behaviour::Profile> profile);
 
     machine::MemoryVolume card{{{"Long folder", true, {}, {}}}};
 

@@ -71,7 +71,7 @@ json everything() {
                 "t2": { "noise_c": 0 } },
             "motion": {
                 "volume_mm": [100, 100, 100], "power_on_position_mm": [1, 2, 3], "homing_feed_mm_s": 10, "homing_bump_s": 1,
-                "planner_blocks": 4, "default_feed_mm_s": 10, "probe_trigger_mm": 1, "probe_offset_mm": [0, 0], "idle_off_s": 60,
+                "planner_blocks": 4, "default_feed_mm_s": 10, "probe_trigger_mm": 1, "probe_offset_mm": [0, 0], "probe_spread_mm": 0.01, "idle_off_s": 60,
                 "bed_mesh_mm": { "front": [0, 0, 0], "middle": [0, 0, 0], "back": [0, 0, 0] },
                 "procedures": { "p": [
                     { "zero": "xy" }, { "home": "z", "together": true, "bump_s": 1 }, { "to": { "x": 1, "y": 1, "z": 1, "e": 1 }, "feed_mm_s": 5, "seconds": 1 }, { "by": { "x": 1 } },

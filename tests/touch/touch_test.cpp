@@ -174,6 +174,7 @@ TEST_CASE("without a touch for the delay a cover falls over page and box, and th
     CHECK(bench.page() == "Main");
     bench.run_for(0.3);
     CHECK(bench.page() == "Saver");
+    CHECK(bench.tap("Nothing").find("a touch anywhere lifts it") != std::string::npos);
     CHECK(bench.box().empty());
     const double before = beeps(bench);
     bench.tap(10, 30);

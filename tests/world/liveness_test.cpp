@@ -1,5 +1,5 @@
 // The liveness matrix: every line in every state of the machine gets an answer to every harmless request.
-// States stand in a table, and all breakdowns of the printer are states as well; requests are what a line
+// States stand in a table, and all faults of the printer are states as well; requests are what a line
 // answers when the board is at rest.
 
 #include <doctest/doctest.h>
@@ -262,7 +262,7 @@ TEST_CASE("liveness: every line answers every harmless request in every state of
             for (const Channel channel : channels) {
                 for (const Probe& probe : probes[static_cast<std::size_t>(channel)]) {
                     if (bench.printer().hung()) {
-                        ++dead_on_purpose;  // this breakdown is a board whose program stands still
+                        ++dead_on_purpose;  // this fault is a board whose program stands still
                         continue;
                     }
                     const bool turns = state.own_command && takes_turns(*profile, channel);

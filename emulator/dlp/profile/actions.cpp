@@ -54,8 +54,13 @@ bool set_clock(MksBoard& b, Args a, SimTime now) {
     if (!year || !month || !day || !hour || !minute || *day > month_length(*year, *month)) {
         return false;
     }
-    b.calendar.set({*year, *month, *day, *hour, *minute, 0}, now);
+    b.set_clock({*year, *month, *day, *hour, *minute, 0}, now);
     return true;
+}
+
+bool calibrate_touch(MksBoard& b, Args a, SimTime now) {
+    return b.calibrate_touch(
+        {{{a[0].number, a[1].number}, {a[2].number, a[3].number}, {a[4].number, a[5].number}}}, now);
 }
 
 bool light(MksBoard& b, Args a, SimTime now) {
@@ -92,6 +97,13 @@ constexpr std::array clock_args{
     ArgInfo{"year", number, true, "2000 to 2099"}, ArgInfo{"month", number, true, "1 to 12"},
     ArgInfo{"day", number, true, "1 to the last of the month"}, ArgInfo{"hour", number, true, "0 to 23"},
     ArgInfo{"minute", number, true, "0 to 59"}};
+
+constexpr std::array tap_args{ArgInfo{"x1", number, true, "what was read at the first target"},
+                              ArgInfo{"y1", number, true, "same"},
+                              ArgInfo{"x2", number, true, "at the second"},
+                              ArgInfo{"y2", number, true, "same"},
+                              ArgInfo{"x3", number, true, "at the third"},
+                              ArgInfo{"y3", number, true, "same"}};
 
 constexpr std::string_view busy = "not now: the platform moves, or a print is under way";
 constexpr std::string_view no_print = "no print is under way, or it is so already";
@@ -173,6 +185,15 @@ constexpr ActionInfo table[] = {
      FAUXBOARD_DLP_ACTION("not while printing", !b.print.active() && (b.uv_test.leave(now), true))},
     {"clock.set", "", "sets the clock, seconds 0", clock_args,
      FAUXBOARD_DLP_ACTION("there is no such date or time", set_clock(b, args, now))},
+    {"touch.calibrate", "",
+     "takes what the touch sensor read at the three targets, in pixels, and keeps it (0.08)", tap_args,
+     FAUXBOARD_DLP_ACTION("the taps lie in one line, or settings are being kept",
+                          calibrate_touch(b, args, now))},
+    {"touch.reset",
+     "",
+     "the touch sensor is taken as it is, and that is kept (0.08)",
+     {},
+     FAUXBOARD_DLP_ACTION("", (b.reset_touch(now), true))},
     {"buzzer.touch", "", "sounds as for a touch", {}, FAUXBOARD_DLP_ACTION("", (b.touch_sound(now), true))},
     {"board.doze",
      "",

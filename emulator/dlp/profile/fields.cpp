@@ -157,6 +157,9 @@ constexpr std::array machine_rows{
     seen("lamp.exposure_s", number, "s", "how long it shone last",
          FAUXBOARD_DLP_SEEN(to_seconds(b.lamp.last()))),
     seen("fan.uv", boolean, "", "the fan of the lamp runs", FAUXBOARD_DLP_SEEN(b.lamp.fan())),
+    seen("fan.board", boolean, "",
+         "the board's own fan runs (0.08); setup.mb_fan_mode: 0 off, 1 with the lamp's fan, 2 always",
+         FAUXBOARD_DLP_SEEN(b.board_fan())),
     seen("buzzer.sounding", boolean, "", "the buzzer sounds", FAUXBOARD_DLP_SEEN(b.sound().until > now)),
     seen("buzzer.last_ms", integer, "ms", "its last sound", FAUXBOARD_DLP_SEEN(b.sound().last / ms(1))),
     seen("panel.awake", boolean, "", "the controllers of the UV panel are awake",
@@ -239,6 +242,18 @@ constexpr std::array view_rows{
     seen("files.stick", boolean, "", "a stick is in", FAUXBOARD_DLP_SEEN(b.stick().present() && !b.dozing())),
 };
 
+constexpr double most_factor = 100;
+constexpr double most_shift = 10'000;
+
+/// Coefficient `I` of the touch sensor's calibration.
+template <std::size_t I>
+constexpr Field calibration_row(std::string_view path, double most) {
+    return kept(
+        path, number, most == most_shift ? "px" : "", -most, most,
+        "calibration of the touch sensor (0.08): x = xx X + xy Y + x0, y = yx X + yy Y + y0",
+        [](auto& b) -> auto& { return b.settings.general.touch[I]; });
+}
+
 constexpr std::array other_rows{
     kept("setup.language", integer, "", 0, 1, "0 English, 1 Russian",
          FAUXBOARD_DLP_PLACE(settings.general.language)),
@@ -265,6 +280,17 @@ constexpr std::array other_rows{
          FAUXBOARD_DLP_SEEN(b.uv_test.loading())),
     seen("uvtest.light", boolean, "", "the lamp is on by hand", FAUXBOARD_DLP_SEEN(b.uv_test.light())),
     seen("uvtest.display", boolean, "", "the panel is on by hand", FAUXBOARD_DLP_SEEN(b.uv_test.display())),
+    seen("clock.external", boolean, "", "the clock chip beside the board answers (0.08)",
+         FAUXBOARD_DLP_SEEN(!b.external_clock.dead)),
+    seen("touch.shift_x", number, "px", "how far to the right of the finger the touch sensor feels it",
+         FAUXBOARD_DLP_SEEN(b.sensor_shift.x)),
+    seen("touch.shift_y", number, "px", "how far below it", FAUXBOARD_DLP_SEEN(b.sensor_shift.y)),
+    calibration_row<0>("setup.touch_xx", most_factor),
+    calibration_row<1>("setup.touch_xy", most_factor),
+    calibration_row<2>("setup.touch_x0", most_shift),
+    calibration_row<3>("setup.touch_yx", most_factor),
+    calibration_row<4>("setup.touch_yy", most_factor),
+    calibration_row<5>("setup.touch_y0", most_shift),
     seen("clock.weekday", integer, "", "1 Monday to 7 Sunday", FAUXBOARD_DLP_SEEN(b.calendar.weekday(now))),
     kept("counters.led_s", integer, "s", 0, 4e9, "the lamp has shone", FAUXBOARD_DLP_PLACE(counters.led_s)),
     kept("counters.display_s", integer, "s", 0, 4e9, "the panel has worked",

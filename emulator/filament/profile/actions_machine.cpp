@@ -79,6 +79,10 @@ void motion_move(Printer& p, ActionContext& c, Args a) {
     request.feed_mm_min = given(a[4]);
     request.force_relative = flag(a[5]);
     request.limits = a[6].none() || flag(a[6]);
+    request.feed_passes = request.force_relative && a[0].none() && a[1].none() && a[2].none();
+    if (flag(a[7]) && request.values[3]) {
+        request.values[3] = -*request.values[3];
+    }
     switch (p.motion.move(request, p.now(), p.events)) {
         case MoveOutcome::accepted:
             break;
@@ -177,9 +181,11 @@ constexpr std::array move_args{
     ArgInfo{"y", number, false, "mm", "mm"},
     ArgInfo{"z", number, false, "mm", "mm"},
     ArgInfo{"e", number, false, "mm", "mm"},
-    ArgInfo{"f", number, false, "feed, mm/min; stays in force", "mm/min"},
+    ArgInfo{"f", number, false,
+            "feed, mm/min; stays in force, but for filament alone that is moved by a distance", "mm/min"},
     ArgInfo{"relative", boolean, false, "by these distances, whatever G90 and G91 say"},
-    ArgInfo{"limits", boolean, false, "keep inside the build volume (default)"}};
+    ArgInfo{"limits", boolean, false, "keep inside the build volume (default)"},
+    ArgInfo{"back", boolean, false, "e is pulled back: what is written for it counts with its sign turned"}};
 constexpr std::array position_args{
     ArgInfo{"x", number, false, "mm", "mm"}, ArgInfo{"y", number, false, "mm", "mm"},
     ArgInfo{"z", number, false, "mm", "mm"}, ArgInfo{"e", number, false, "mm", "mm"}};

@@ -43,6 +43,8 @@ constexpr std::array table{
     row.shown("filament.moved", number, "mm",
               "filament that has really gone through the extruder since the machine was made",
               [](const Printer& p) { return p.filament_path.moved_mm; }),
+    row.shown("filament.moved_m", number, "m", "the same in metres",
+              [](const Printer& p) { return p.filament_path.moved_mm / 1000; }),
 };
 
 }  // namespace

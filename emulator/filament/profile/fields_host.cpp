@@ -35,6 +35,10 @@ constexpr auto mesh_point = [](auto& p) -> auto& {
 };
 template <std::size_t I>
 constexpr auto size = [](const Printer& p) { return p.config().motion.volume_mm[I]; };
+template <auto Value>
+constexpr auto series = [](const Printer& p) { return (p.motion.series.*Value)(); };
+template <auto Value>
+constexpr auto autotuned = [](const Printer& p) { return p.autotuned.*Value; };
 template <std::size_t I>
 constexpr auto probed = [](const Printer& p) { return p.motion.probed_mm()[I]; };
 
@@ -83,6 +87,27 @@ constexpr std::array table{
     row.shown("probe.x", number, "mm", "X of the point probed last", probed<0>),
     row.shown("probe.y", number, "mm", "Y of the point probed last", probed<1>),
     row.shown("probe.z", number, "mm", "height of the bed at the point probed last", probed<2>),
+    row.shown("probe.touches", integer, "", "touches made for the M48 under way, or the last",
+              series<&ProbeSeries::count>),
+    row.shown("probe.touches_wanted", integer, "", "touches that it was asked for",
+              series<&ProbeSeries::wanted>),
+    row.shown("probe.touch", number, "mm", "what the last of them found", series<&ProbeSeries::last>),
+    row.shown("probe.mean", number, "mm", "mean of them", series<&ProbeSeries::mean>),
+    row.shown("probe.min", number, "mm", "the lowest of them", series<&ProbeSeries::min>),
+    row.shown("probe.max", number, "mm", "the highest of them", series<&ProbeSeries::max>),
+    row.shown("probe.range", number, "mm", "between these",
+              [](const Printer& p) { return p.motion.series.max() - p.motion.series.min(); }),
+    row.shown("probe.deviation", number, "mm", "standard deviation of them", series<&ProbeSeries::deviation>),
+    row.shown("autotune.bias", integer, "", "power, of 127, that the last M303 switched around",
+              autotuned<&Autotune::bias>),
+    row.shown("autotune.d", integer, "", "how far it switched, of 127", autotuned<&Autotune::d>),
+    row.shown("autotune.min", number, "C", "lowest temperature of a cycle", autotuned<&Autotune::min_c>),
+    row.shown("autotune.max", number, "C", "highest temperature of a cycle", autotuned<&Autotune::max_c>),
+    row.shown("autotune.ku", number, "", "ultimate gain", autotuned<&Autotune::ku>),
+    row.shown("autotune.tu", number, "s", "ultimate period", autotuned<&Autotune::tu_s>),
+    row.shown("autotune.kp", number, "", "P found", autotuned<&Autotune::kp>),
+    row.shown("autotune.ki", number, "", "I found", autotuned<&Autotune::ki>),
+    row.shown("autotune.kd", number, "", "D found", autotuned<&Autotune::kd>),
     row.stored("leveling.mesh.valid", boolean, "", 0, 1, "the bed has been measured (G29)",
                FAUXBOARD_PLACE(motion.mesh.valid)),
     row.stored("leveling.mesh.z0", number, "mm", -10, 10, "height at the front, left", mesh_point<0>),

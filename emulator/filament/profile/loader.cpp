@@ -281,6 +281,7 @@ void load_motion(const Json& node, const std::string& pointer, Findings& finding
     reader.number("default_feed_mm_s", out.default_feed_mm_s, 0.1, 1000);
     reader.number("probe_trigger_mm", out.probe_trigger_mm, -50, 50);
     reader.numbers("probe_offset_mm", out.probe_offset_mm, -500, 500);
+    reader.number("probe_spread_mm", out.probe_spread_mm, 0, 1);
     reader.number("idle_off_s", out.idle_off_s, 0, 86400);
     if (const Json* mesh = reader.get("bed_mesh_mm")) {
         ObjectReader rows(*mesh, reader.pointer("bed_mesh_mm"), findings);
