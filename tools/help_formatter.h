@@ -5,8 +5,8 @@
 
 namespace fauxboard::tools {
 
-/// The library's help, less what only the library needs: default values of flags, counts, lists of what is valid
-/// behind a type that names them already.
+/// The library's help, less what only the library needs: default values of flags, counts, lists of what is
+/// valid behind a type that names them already.
 class HelpFormatter : public CLI::Formatter {
   public:
     std::string make_option_name(const CLI::Option* option, bool is_positional) const override;

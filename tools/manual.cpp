@@ -100,12 +100,13 @@ std::string bash_completion(const std::vector<DeclaredCommand>& commands) {
         for (const DeclaredOption& option : command.options) {
             const std::string_view kind = values_of(option);
             for (const std::string& name : kind == "none" ? std::vector<std::string>{} : option.names) {
-                fmt::format_to(std::back_inserter(text), "        '{} {}') {}; return ;;\n", command.path, name,
-                               kind == "names"
-                                   ? "COMPREPLY=($(compgen -f -W \"$(fauxboard profiles --names 2>/dev/null)\" "
-                                     "-- \"$cur\"))"
-                               : kind == "files" ? "COMPREPLY=($(compgen -f -- \"$cur\"))"
-                                                 : "COMPREPLY=()");
+                fmt::format_to(
+                    std::back_inserter(text), "        '{} {}') {}; return ;;\n", command.path, name,
+                    kind == "names"
+                        ? "COMPREPLY=($(compgen -f -W \"$(fauxboard profiles --names 2>/dev/null)\" "
+                          "-- \"$cur\"))"
+                    : kind == "files" ? "COMPREPLY=($(compgen -f -- \"$cur\"))"
+                                      : "COMPREPLY=()");
             }
         }
     }
@@ -127,7 +128,8 @@ std::string bash_completion(const std::vector<DeclaredCommand>& commands) {
             }
         }
         fmt::format_to(std::back_inserter(text),
-                       "        '{}') COMPREPLY=($(compgen -f -W '{}' -- \"$cur\")) ;;\n", command.path, words);
+                       "        '{}') COMPREPLY=($(compgen -f -W '{}' -- \"$cur\")) ;;\n", command.path,
+                       words);
     }
     return text +
            "    esac\n"
@@ -190,7 +192,8 @@ std::string zsh_completion(const std::vector<DeclaredCommand>& commands) {
         "        return\n"
         "    fi\n"
         "    local command=${words[2]}\n"
-        "    [[ -n ${_fauxboard_nested[(r)$command ${words[3]}]} && CURRENT -gt 3 ]] && command+=\" ${words[3]}\"\n"
+        "    [[ -n ${_fauxboard_nested[(r)$command ${words[3]}]} && CURRENT -gt 3 ]] && command+=\" "
+        "${words[3]}\"\n"
         "    case \"$command\" in\n";
     std::string nested;
     for (const DeclaredCommand& command : commands) {
@@ -228,8 +231,8 @@ std::string fish_completion(const std::vector<DeclaredCommand>& commands) {
             const std::string_view kind = values_of(option);
             for (const std::string& name : option.names) {
                 fmt::format_to(std::back_inserter(text),
-                               "complete -c fauxboard -n '__fish_seen_subcommand_from {}' {} {}{} -d '{}'\n", own,
-                               name.starts_with("--") ? "-l" : "-s",
+                               "complete -c fauxboard -n '__fish_seen_subcommand_from {}' {} {}{} -d '{}'\n",
+                               own, name.starts_with("--") ? "-l" : "-s",
                                name.substr(name.starts_with("--") ? 2 : 1),
                                kind == "none"    ? ""
                                : kind == "names" ? " -r -a '(fauxboard profiles --names)'"

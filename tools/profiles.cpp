@@ -57,7 +57,8 @@ std::string names(const std::vector<Listed>& list) {
     return text;
 }
 
-/// `text` in at most `most` columns; what is cut ends with a mark. Titles are plain text of one column a letter.
+/// `text` in at most `most` columns; what is cut ends with a mark. Titles are plain text of one column a
+/// letter.
 std::string cut(const std::string& text, std::size_t most) {
     return text.size() <= most ? text : text.substr(0, most - 3) + "...";
 }

@@ -9,7 +9,8 @@ say() { printf '\n== %s\n' "$*"; }
 build_packages=(clang lld g++ cmake ninja-build pkg-config libserialport-dev nlohmann-json3-dev libfmt-dev
                 libcli11-dev libncurses-dev libre2-dev libpng-dev libmicrohttpd-dev libjs-dygraphs
                 libfreetype-dev fonts-dejavu-core libmd-dev)
-test_packages=(doctest-dev libbenchmark-dev libclang-rt-dev printrun-common python3-serial)
+test_packages=(doctest-dev libbenchmark-dev libclang-rt-dev printrun-common python3-serial
+               clang-format)
 # Of these only the files are taken: what they depend on is for uses that nobody has here.
 header_packages=(libvalijson-dev)
 
@@ -64,11 +65,12 @@ unpack() {
     done
 }
 
-# build PRESET [CMAKE BUILD ARGUMENT...]; `tests` says whether they are wanted, and with them what only they need.
+# build PRESET [CMAKE BUILD ARGUMENT...], with a low priority: tests may run beside it. `tests` says whether they are
+# wanted, and with them what only they need.
 tests=ON
 build() {
     local preset=$1
     shift
     say "Building, preset $preset"
-    (cd "$top" && cmake --preset "$preset" -DBUILD_TESTING="$tests" >/dev/null && cmake --build --preset "$preset" "$@")
+    (cd "$top" && cmake --preset "$preset" -DBUILD_TESTING="$tests" >/dev/null && nice cmake --build --preset "$preset" "$@")
 }

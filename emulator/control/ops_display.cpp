@@ -78,7 +78,7 @@ constexpr std::array touch_params{
     Param{"y", number, false, "and from the top"},
     Param{"for", time, false, "how long the finger stays (120ms)"}};
 
-constexpr std::array table{
+constexpr std::array display_table{
     Op{"page",
        "what the board's screen shows: page, title, texts, message box, controls with their places",
        {},
@@ -91,7 +91,7 @@ constexpr std::array table{
 }  // namespace
 
 std::span<const Op> display_ops() {
-    return table;
+    return display_table;
 }
 
 }  // namespace fauxboard::control::rows

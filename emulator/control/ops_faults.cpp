@@ -165,7 +165,7 @@ constexpr std::array add_params{spec_param};
 constexpr std::array change_params{id_param, spec_param};
 constexpr std::array remove_params{gone_param};
 
-constexpr std::array table{
+constexpr std::array faults_table{
     Op{"faults.list", "the faults of line and printer, and what each has done or how it stands", {}, list},
     Op{"faults.add", "makes the tested line misbehave, or breaks the printer; answers with the fault's id",
        add_params, add, true},
@@ -179,7 +179,7 @@ constexpr std::array table{
 }  // namespace
 
 std::span<const Op> fault_ops() {
-    return table;
+    return faults_table;
 }
 
 }  // namespace fauxboard::control::rows

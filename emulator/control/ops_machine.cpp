@@ -230,7 +230,7 @@ constexpr std::array send_params{
 constexpr std::array hold_params{Param{"on", any, true, "true: it stands still; false: it goes on"}};
 constexpr std::array advance_params{Param{"by", time, true, "1 us to 30 days of virtual time"}};
 
-constexpr std::array table{
+constexpr std::array machine_table{
     Op{"do", "does something to the machine; when it refuses, actions behind that one in a list are not done",
        do_params, do_actions},
     Op{"world", "does something to the machine by its phrase", world_params, world},
@@ -250,7 +250,7 @@ constexpr std::array table{
 }  // namespace
 
 std::span<const Op> machine_ops() {
-    return table;
+    return machine_table;
 }
 
 }  // namespace fauxboard::control::rows

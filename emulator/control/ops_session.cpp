@@ -171,7 +171,7 @@ constexpr std::array subscribe_params{
     Param{"words", any, false, "traffic: true adds what each line means"}};
 constexpr std::array unsubscribe_params{Param{"topic", text, false, "all if left out"}};
 
-constexpr std::array table{
+constexpr std::array session_table{
     Op{"subscribe",
        "from now on this client is told unasked, in lines with \"event\" instead of \"ok\"; a topic anew "
        "replaces its former fields",
@@ -184,7 +184,7 @@ constexpr std::array table{
 }  // namespace
 
 std::span<const Op> session_ops() {
-    return table;
+    return session_table;
 }
 
 }  // namespace fauxboard::control::rows

@@ -106,7 +106,7 @@ constexpr std::array set_params{
 constexpr std::array describe_params{
     Param{"what", names, false, "of control (the default), fields, variables, actions, frames, faults"}};
 
-constexpr std::array table{
+constexpr std::array values_table{
     Op{"get", "the values of fields, of this moment: {\"t\": ..., \"fields\": {...}}", get_params, get},
     Op{"set", "puts values into fields, all or none of them; answers with the values as they are then",
        set_params, set},
@@ -117,7 +117,7 @@ constexpr std::array table{
 }  // namespace
 
 std::span<const Op> value_ops() {
-    return table;
+    return values_table;
 }
 
 }  // namespace fauxboard::control::rows

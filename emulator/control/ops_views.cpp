@@ -93,7 +93,7 @@ constexpr std::array press_params{
 constexpr std::array request_params{
     Param{"line", text, true, "what it says, without frame and line end: \"M105\""}};
 
-constexpr std::array table{
+constexpr std::array views_table{
     Op{"screen",
        "what a touch screen on the main line shows now: its page, values and buttons; null without one",
        {},
@@ -117,7 +117,7 @@ constexpr std::array table{
 }  // namespace
 
 std::span<const Op> view_ops() {
-    return table;
+    return views_table;
 }
 
 }  // namespace fauxboard::control::rows

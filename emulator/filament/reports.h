@@ -36,7 +36,9 @@ class Reports {
             }
         }
     }
-    SimTime next_event() const { return machine::earliest(reports_[0].due, reports_[1].due, reports_[2].due); }
+    SimTime next_event() const {
+        return machine::earliest(reports_[0].due, reports_[1].due, reports_[2].due);
+    }
 
   private:
     struct Report {

@@ -18,9 +18,9 @@ class JobPlaceFile final : public machine::JobPlaceStore {
   public:
     using OnTrouble = std::function<void(std::string_view sentence)>;
 
-    /// `file` need not exist. Throws link::HostError when it cannot be opened for writing, is no plain file, holds
-    /// what is not ours (which stays as it is), or belongs to a board that runs: two would write over each
-    /// other, here and in the EEPROM beside.
+    /// `file` need not exist. Throws link::HostError when it cannot be opened for writing, is no plain file,
+    /// holds what is not ours (which stays as it is), or belongs to a board that runs: two would write over
+    /// each other, here and in the EEPROM beside.
     JobPlaceFile(std::string file, OnTrouble on_trouble);
 
     std::optional<std::string> load() override;

@@ -80,7 +80,7 @@ class LiveScreen final : public link::LinkListener {
     bool running_ = false;
     protocol::LineSplitter from_board_;
     protocol::LineSplitter to_board_;
-    std::string inbox_;      ///< has arrived, but not yet as a UART would have brought it
+    std::string inbox_;       ///< has arrived, but not yet as a UART would have brought it
     std::uint64_t seen_ = 0;  ///< lines judged and told
     std::uint64_t lines_heard_ = 0;
     std::uint64_t bytes_dropped_ = 0;

@@ -23,8 +23,8 @@ class PathKeeper {
   private:
     struct Layer {
         double z = 0;
-        std::vector<float> points;         ///< x, y, x, y, ...
-        std::vector<std::size_t> breaks;   ///< where in `points` a line begins
+        std::vector<float> points;        ///< x, y, x, y, ...
+        std::vector<std::size_t> breaks;  ///< where in `points` a line begins
     };
     static control::Json lines(const Layer& layer, std::size_t from);
 

@@ -119,8 +119,8 @@ std::unique_ptr<Link> make_pty_link(EventLoop& loop, std::string link_name, PtyU
 std::unique_ptr<Link> make_port_link(EventLoop& loop, std::string device, unsigned baud);
 
 /// The board's side of a TCP line: listens on "HOST:PORT", ":PORT" or "PORT" (127.0.0.1), "[IPV6]:PORT". Port
-/// 0 takes a free one; path() tells which. One client at a time; a second one is turned away. `backlog` as for
-/// the pty.
+/// 0 takes a free one; path() tells which. One client at a time; a second one is turned away. `backlog` as
+/// for the pty.
 std::unique_ptr<Link> make_tcp_listen_link(EventLoop& loop, std::string host_port, bool backlog = true);
 
 /// The screen's side: connects when opened (which may take up to 5 s per address, then LinkError), and again

@@ -24,7 +24,8 @@ void ShelfCard::choose(const board::Board& board) {
     for (control::Place& place : host::curve_places(board)) {
         if (place.field->unit == "%") {
             progress_ = std::move(place);
-        } else if (curves_.size() < most_values && place.field->set == nullptr) {  // what is, not what is asked for
+        } else if (curves_.size() < most_values &&
+                   place.field->set == nullptr) {  // what is, not what is asked for
             curves_.push_back(std::move(place));
         }
     }
@@ -39,8 +40,8 @@ Json ShelfCard::changes(const host::LiveTarget& target) {
     for (const control::Place& place : curves_) {
         const Json value = control::value_of(board, place);
         if (value.is_number()) {
-            words += fmt::format("{}{} {:.0f}{}", words.empty() ? "" : " · ",
-                                 short_name(place.name), value.get<double>(),
+            words += fmt::format("{}{} {:.0f}{}", words.empty() ? "" : " · ", short_name(place.name),
+                                 value.get<double>(),
                                  place.field->unit == "C" ? " °C" : " " + std::string(place.field->unit));
         }
     }

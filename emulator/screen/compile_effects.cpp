@@ -14,8 +14,6 @@ using behaviour::ObjectReader;
 
 namespace {
 
-constexpr double hour_ms = 3'600'000;
-
 std::string unknown_action(const std::string& name, std::string& nearest) {
     std::vector<std::string_view> names;
     for (const behaviour::ActionInfo& action : behaviour::actions()) {

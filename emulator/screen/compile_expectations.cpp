@@ -10,10 +10,6 @@ namespace fauxboard::screen {
 using behaviour::Json;
 using behaviour::ObjectReader;
 
-namespace {
-constexpr double hour_ms = 3'600'000;
-}
-
 void Compiler::check_frame_name(const std::string& name, const std::string& pointer) {
     std::vector<std::string> names;
     for (const auto& [code, rule] : profile.codes) {

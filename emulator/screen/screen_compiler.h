@@ -14,6 +14,9 @@
 
 namespace fauxboard::screen {
 
+/// The longest time that a screen waits for something.
+inline constexpr double hour_ms = 3'600'000;
+
 inline constexpr int box_button_width = 110;
 inline constexpr int box_button_height = 36;
 inline constexpr int box_button_gap = 19;

@@ -8,6 +8,7 @@
 #include "emulator/behaviour/wire_text.h"
 #include "emulator/control/names.h"
 #include "emulator/script/compiler.h"
+#include "emulator/script/placeholders.h"
 #include "protocol/framing.h"
 
 namespace fauxboard::script {
@@ -18,14 +19,6 @@ using behaviour::found;
 using behaviour::ObjectReader;
 
 constexpr std::string_view variable_prefix = "var.";
-
-std::string below(const std::string& pointer, std::string_view key) {
-    std::string out = pointer + "/";
-    for (const char c : key) {
-        out += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
-    }
-    return out;
-}
 
 std::string plain(const Json& value) {
     return value.is_string() ? value.get<std::string>() : value.dump();
@@ -86,7 +79,8 @@ std::span<const TriggerInfo> trigger_kinds() {
         TriggerInfo{"shows", "pattern", "a line of what the virtual screen shows matches",
                     Trigger::Kind::shows},
         TriggerInfo{"judged", "pattern",
-                    "the virtual screen took a line otherwise than it was meant, and the sentence that says so matches: "
+                    "the virtual screen took a line otherwise than it was meant, and the sentence that says "
+                    "so matches: "
                     "\"L7 P0 ...: cut: a name of ...\"; of all lines so far",
                     Trigger::Kind::judged},
     };

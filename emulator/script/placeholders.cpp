@@ -11,14 +11,6 @@ bool is_letter(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
 }
 
-std::string below(const std::string& pointer, std::string_view key) {
-    std::string out = pointer + "/";
-    for (const char c : key) {
-        out += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
-    }
-    return out;
-}
-
 /// Takes a text apart: on_text(piece), on_escape() for "$${", on_name(name) with "" for what is no name.
 template <class Text, class Escape, class Name>
 void scan(std::string_view text, Text&& on_text, Escape&& on_escape, Name&& on_name) {
@@ -63,6 +55,14 @@ Json filled_text(const std::string& text, const Lookup& lookup, Escapes escapes)
 }
 
 }  // namespace
+
+std::string below(const std::string& pointer, std::string_view key) {
+    std::string out = pointer + "/";
+    for (const char c : key) {
+        out += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
+    }
+    return out;
+}
 
 bool is_name(std::string_view text) {
     return !text.empty() && text.size() <= longest_name && is_letter(text.front()) &&

@@ -14,6 +14,9 @@ namespace fauxboard::script {
 
 using behaviour::Json;
 
+/// The JSON pointer of what lies below another one under `key`.
+std::string below(const std::string& pointer, std::string_view key);
+
 /// Letters, digits and '_', at most 64 of them, no digit first.
 bool is_name(std::string_view text);
 

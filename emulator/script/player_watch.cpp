@@ -124,7 +124,8 @@ bool Player::holds(const Trigger& trigger) {
     if (trigger.kind == Trigger::Kind::page) {
         return page_shown() == scenario_->cast.screen->pages[trigger.page].path;
     }
-    const std::string shown = trigger.kind == Trigger::Kind::judged ? judged(*stage_->screen()) : text_shown();
+    const std::string shown =
+        trigger.kind == Trigger::Kind::judged ? judged(*stage_->screen()) : text_shown();
     const std::string bytes = behaviour::to_wire(shown).value_or(shown);
     std::string_view rest = bytes;
     while (!rest.empty() && !out) {

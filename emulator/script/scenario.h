@@ -45,7 +45,7 @@ struct Trigger {
         host_line,     ///< a line that the board said there
         event,
         field,
-        page,   ///< the virtual screen has it open
+        page,    ///< the virtual screen has it open
         shows,   ///< the virtual screen shows a text that matches
         judged,  ///< the virtual screen took a line otherwise than it was meant, in words that match
     };

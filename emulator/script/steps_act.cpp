@@ -308,7 +308,7 @@ constexpr std::array host_keys{
 constexpr std::array fault_keys{
     KeyInfo{"as", "name", "what to call it; left out: its kind. A fault of the same name is replaced"}};
 
-constexpr std::array table{
+constexpr std::array act_table{
     StepKind{"do",
              "actions",
              "does something to the machine: an action, a phrase, or a list of them; a machine that "
@@ -380,7 +380,7 @@ constexpr std::array table{
 }  // namespace
 
 std::span<const StepKind> act_steps() {
-    return table;
+    return act_table;
 }
 
 }  // namespace fauxboard::script::rows

@@ -149,7 +149,7 @@ constexpr std::array never_keys{KeyInfo{"for", "time", "how long"},
                                 KeyInfo{"steps", "list of steps", "or while these are carried out"}};
 constexpr std::array include_keys{KeyInfo{"with", "object", "values of its parameters"}};
 
-constexpr std::array table{
+constexpr std::array block_table{
     StepKind{"never", "pattern or trigger", "must not come, for a time or while steps are carried out",
              R"j({"never": "^L18 P26", "for": "10s"})j", never_keys, Role::block, compile_never},
     StepKind{"repeat", "number or \"forever\"", "steps several times over",
@@ -167,7 +167,7 @@ constexpr std::array table{
 }  // namespace
 
 std::span<const StepKind> block_steps() {
-    return table;
+    return block_table;
 }
 
 }  // namespace fauxboard::script::rows

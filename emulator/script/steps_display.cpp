@@ -91,7 +91,7 @@ std::string run_screenshot(Acting& acting, const Step& step) {
 
 constexpr std::array touch_keys{KeyInfo{"for", "time", "how long the finger stays; left out: 120ms"}};
 
-constexpr std::array table{
+constexpr std::array display_table{
     StepKind{"touch", "control, or [x, y]",
              "a finger is put on the board's screen, at a control of the page that is open or at a pixel; "
              "touches follow one another",
@@ -109,7 +109,7 @@ constexpr std::array table{
 }  // namespace
 
 std::span<const StepKind> display_steps() {
-    return table;
+    return display_table;
 }
 
 }  // namespace fauxboard::script::rows

@@ -115,7 +115,7 @@ constexpr std::array upload_keys{
     KeyInfo{"exposure", "time", "how long each is exposed; 2s unless given"},
 };
 
-constexpr std::array table{
+constexpr std::array upload_table{
     StepKind{"upload", "text",
              "a small made-up file that a resin printer can print goes up over the network under this name, "
              "as slicers send it: M28, pieces, M29; a board that does not take it fails the scenario",
@@ -126,7 +126,7 @@ constexpr std::array table{
 }  // namespace
 
 std::span<const StepKind> upload_steps() {
-    return table;
+    return upload_table;
 }
 
 }  // namespace fauxboard::script::rows

@@ -88,7 +88,7 @@ constexpr std::array next_keys{
     expect_keys[0], expect_keys[1],
     KeyInfo{"ignoring", "list of patterns", "lines that may come before: what the board says by itself"}};
 
-constexpr std::array table{
+constexpr std::array watch_table{
     StepKind{"wait", "time or trigger",
              "goes on when the time has passed or the thing has come; a wait that is in vain fails "
              "the scenario (as timed out)",
@@ -115,7 +115,7 @@ constexpr std::array table{
 }  // namespace
 
 std::span<const StepKind> watch_steps() {
-    return table;
+    return watch_table;
 }
 
 }  // namespace fauxboard::script::rows

@@ -18,7 +18,8 @@ struct Sample {
 };
 
 /// A small file that can be printed, for who has none at hand: .cbddlp, version 2, a bar of light on a
-/// tiny LCD, or on one of the wished size. Of the tiny one some 60 bytes a layer; the same for the same wishes.
+/// tiny LCD, or on one of the wished size. Of the tiny one some 60 bytes a layer; the same for the same
+/// wishes.
 std::string make_sample(const Sample& wishes);
 
 }  // namespace fauxboard::sliced

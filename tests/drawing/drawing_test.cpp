@@ -116,7 +116,7 @@ TEST_CASE("texts are broken at blanks, and cut between characters") {
 TEST_CASE("bytes that are no text are drawn as something, and harm nothing") {
     Canvas canvas(50, 20, 0);
     for (const std::string& bytes : {std::string("\xFF\xFE\xC3"), std::string("\xF0\x9F"),
-                                    std::string(1, '\0'), std::string("\xED\xA0\x80")}) {
+                                     std::string(1, '\0'), std::string("\xED\xA0\x80")}) {
         canvas.text(bytes, 0, 10, 14, 0xFFFFFF);
         CHECK(drawing::text_width(bytes, 14) > 0);
     }

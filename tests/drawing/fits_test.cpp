@@ -45,13 +45,21 @@ TEST_CASE("texts fit their controls in English and in Russian") {
         for (std::size_t n = 0; n < profile->display->languages.size(); ++n) {
             auto values = profile->values.power_on();
             values[*language].number = static_cast<double>(n);
-            for (const auto& [value, number] : {std::pair{"print.layers", 3500.0}, {"print.layer", 3499.0},
-                                                {"print.z_mm", 174.95}, {"print.estimate_s", 86'400.0},
-                                                {"print.elapsed_s", 80'000.0}, {"print.percent", 100.0},
-                                                {"view.ok", 1.0}, {"view.layers", 3500.0},
-                                                {"view.bytes", 123'456'789.0}, {"view.lift_mm_s", 10.5},
-                                                {"view.drop_mm_s", 10.5}, {"setup.pause_lift", 1000.0},
-                                                {"month", 9.0}, {"clock.day", 30.0}, {"clock.year", 2020.0}}) {
+            for (const auto& [value, number] : {std::pair{"print.layers", 3500.0},
+                                                {"print.layer", 3499.0},
+                                                {"print.z_mm", 174.95},
+                                                {"print.estimate_s", 86'400.0},
+                                                {"print.elapsed_s", 80'000.0},
+                                                {"print.percent", 100.0},
+                                                {"view.ok", 1.0},
+                                                {"view.layers", 3500.0},
+                                                {"view.bytes", 123'456'789.0},
+                                                {"view.lift_mm_s", 10.5},
+                                                {"view.drop_mm_s", 10.5},
+                                                {"setup.pause_lift", 1000.0},
+                                                {"month", 9.0},
+                                                {"clock.day", 30.0},
+                                                {"clock.year", 2020.0}}) {
                 if (const auto id = profile->values.find(value)) values[*id].number = number;
             }
             for (std::size_t page = 0; page < profile->pages.size(); ++page) {

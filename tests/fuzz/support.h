@@ -91,10 +91,9 @@ std::shared_ptr<const behaviour::Profile> shipped_profile(std::string_view name)
 /// Finds the shipped profiles, and nothing else.
 behaviour::SourceFinder shipped_finder();
 
-/// Output of a board: whole lines, each ended by CR LF and without other control bytes but a tab, which a text
-/// of the host's may have. With `checksums`,
-/// what starts as a frame also carries the right checksum, unless it is one of the two lines that a real
-/// board leaves unfinished.
+/// Output of a board: whole lines, each ended by CR LF and without other control bytes but a tab, which a
+/// text of the host's may have. With `checksums`, what starts as a frame also carries the right checksum,
+/// unless it is one of the two lines that a real board leaves unfinished.
 void check_output(std::string_view output, bool checksums);
 
 /// Advances the board to `target`, stopping at each output, which goes to `take(time, bytes)` before it is

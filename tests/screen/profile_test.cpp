@@ -1,16 +1,11 @@
 #include <doctest/doctest.h>
 
-#include <valijson/adapters/nlohmann_json_adapter.hpp>
-#include <valijson/schema.hpp>
-#include <valijson/schema_parser.hpp>
-#include <valijson/validation_results.hpp>
-#include <valijson/validator.hpp>
-
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "emulator/behaviour/operand.h"
 #include "tests/screen/harness.h"
+#include "tools/check_files.h"
 
 using namespace fauxboard;
 using namespace fauxboard::testing;
@@ -193,21 +188,11 @@ TEST_CASE("the shipped screens fit their schema, and a wrong one does not") {
         std::ifstream in(FAUXBOARD_SOURCE_DIR "/profiles/" + file);
         return nlohmann::json::parse(in);
     };
-    const nlohmann::json schema_text = read("schemas/screen.schema.json");
-    valijson::Schema schema;
-    valijson::SchemaParser parser;
-    const valijson::adapters::NlohmannJsonAdapter schema_adapter(schema_text);
-    parser.populateSchema(schema_adapter, schema);
+    const nlohmann::json schema = read("schemas/screen.schema.json");
     const auto complaints = [&](const nlohmann::json& document) {
-        valijson::Validator validator;
-        valijson::ValidationResults results;
-        const valijson::adapters::NlohmannJsonAdapter adapter(document);
-        validator.validate(schema, adapter, &results);
         std::string out;
-        for (const auto& error : results) {
-            for (const std::string& part : error.context)
-                out += part;
-            out += ": " + error.description + '\n';
+        for (const tools::SchemaError& error : tools::check_schema(schema, document)) {
+            out += error.pointer + ": " + error.message + '\n';
         }
         return out;
     };

@@ -5,13 +5,10 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <valijson/adapters/nlohmann_json_adapter.hpp>
-#include <valijson/schema.hpp>
-#include <valijson/schema_parser.hpp>
-#include <valijson/validator.hpp>
 
 #include "emulator/script/steps.h"
 #include "tests/support/scenario_run.h"
+#include "tools/check_files.h"
 
 namespace fauxboard::script {
 namespace {
@@ -27,14 +24,7 @@ const json& schema() {
 }
 
 bool fits(const json& document) {
-    static const auto compiled = [] {
-        auto out = std::make_unique<valijson::Schema>();
-        const valijson::adapters::NlohmannJsonAdapter adapter(schema());
-        valijson::SchemaParser().populateSchema(adapter, *out);
-        return out;
-    }();
-    const valijson::adapters::NlohmannJsonAdapter adapter(document);
-    return valijson::Validator().validate(*compiled, adapter, nullptr);
+    return tools::check_schema(schema(), document).empty();
 }
 
 bool fits_step(const json& step) {

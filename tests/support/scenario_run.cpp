@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "emulator/host/board_display.h"
 #include "emulator/host/clock.h"
 #include "emulator/host/faulty_link.h"
 #include "emulator/host/live_board.h"
@@ -11,7 +12,6 @@
 #include "emulator/host/screen_files.h"
 #include "emulator/host/screen_plug.h"
 #include "emulator/host/script_files.h"
-#include "emulator/host/board_display.h"
 #include "emulator/host/script_host.h"
 #include "emulator/link/event_loop.h"
 #include "emulator/machine/memory_volume.h"
@@ -107,10 +107,10 @@ ScenarioRun play(const behaviour::SourceText& source, const ScenarioSetup& setup
     }
     host::FaultyLink line(plug ? plug->board_end() : nobody, *clock, fault::Direction::to_board);
     host::LiveBoard live(board, line, *clock, &observers);
-    host::ScriptHost script({live, *clock, &line, plug ? &*plug : nullptr, [&loop] { loop.stop(); },
-                             [&out](std::string_view words) { out.notes.emplace_back(words); },
-                             display ? &*display : nullptr},
-                            scenario, speed);
+    host::ScriptHost script(
+        {live, *clock, &line, plug ? &*plug : nullptr, [&loop] { loop.stop(); },
+         [&out](std::string_view words) { out.notes.emplace_back(words); }, display ? &*display : nullptr},
+        scenario, speed);
     observers.add(script);
     line.open(live);
     const SimTime duration = setup.duration_s > 0 ? machine::from_seconds(setup.duration_s) : machine::never;

@@ -24,9 +24,9 @@ std::string picture() {
 /// The settings behind the last command, some of which look like something else.
 std::string settings(const char* lead) {
     std::string out;
-    for (const char* one : {"layer_height = 0.2", "layer_gcode = ;LAYER_CHANGE\\nG92 E0", "total_layers = 7",
-                            "time_cost = 0", "start_gcode = G28 ; home all axes\\nM104 S0",
-                            "gcode_comments = 0"}) {
+    for (const char* one :
+         {"layer_height = 0.2", "layer_gcode = ;LAYER_CHANGE\\nG92 E0", "total_layers = 7", "time_cost = 0",
+          "start_gcode = G28 ; home all axes\\nM104 S0", "gcode_comments = 0"}) {
         out += form("%s%s\n", lead, one);
     }
     return out;

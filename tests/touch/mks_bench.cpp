@@ -114,7 +114,8 @@ void MksBench::open(const std::string& name) {
 void MksBench::print(const std::string& name) {
     open(name);
     REQUIRE(tap("Print") == "");
-    REQUIRE(box_text() == "Make sure there is no printed model or debris left on the platform or in the vat.");
+    REQUIRE(box_text() ==
+            "Make sure there is no printed model or debris left on the platform or in the vat.");
     REQUIRE(tap("OK") == "");
 }
 

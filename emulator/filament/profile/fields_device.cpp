@@ -18,10 +18,11 @@ constexpr auto driver = [](auto& p) -> auto& {
 };
 
 constexpr std::array table{
-    row.shown("job.layer_by_height", integer, "",
-              "layer of the job by the nozzle's height, (Z - 0.1 mm) / layer height, where the file tells that "
-              "height; else as its comments count",
-              [](const Printer& p) { return p.runner.layer_by_height(); }),
+    row.shown(
+        "job.layer_by_height", integer, "",
+        "layer of the job by the nozzle's height, (Z - 0.1 mm) / layer height, where the file tells that "
+        "height; else as its comments count",
+        [](const Printer& p) { return p.runner.layer_by_height(); }),
     row.shown("job.lines", integer, "", "lines of the file read in this job, comments included",
               [](const Printer& p) { return p.runner.counts().lines; }),
     row.shown("job.moves", integer, "", "moves of the file carried out in this job (G0 to G3)",
