@@ -23,7 +23,7 @@ struct JudgedLine {
     std::optional<protocol::DecodedLine> decoded;  ///< not of `world`, `bad` and notes, nor of pieces
     std::string piece;  ///< of a datagram that is a piece of a file: what it brings
     std::vector<LineMark> marks;
-    std::string own;  ///< the words that a profile has of its own for it
+    std::string own;                   ///< the words that a profile has of its own for it
     std::string_view peer = "screen";  ///< what the main line's other end is called; see protocol::PeerName
 };
 
