@@ -73,8 +73,8 @@ class BoardUnit {
     control::Display* display() { return display_.get(); }
     /// Null before open_target().
     host::LiveTarget* target() { return target_ ? &*target_ : nullptr; }
-    /// Who binds beyond this computer may not know that anybody can then drive the board. `web`: the address of
-    /// the page that shows it; empty for none.
+    /// Who binds beyond this computer may not know that anybody can then drive the board. `web`: the address
+    /// of the page that shows it; empty for none.
     void warn_of_network(const std::string& web);
     /// " on ..., its USB port on ...", for people.
     std::string where() const;

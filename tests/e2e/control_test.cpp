@@ -121,11 +121,11 @@ TEST_CASE("each no has its exit code and its sentence") {
         {{"send", "L2x"}, failed, "no frame \"L2x\""},
         {{"advance", "5parsec"}, failed, "200ms"},
         {{"fault", "remove", "x"}, failed, "There is no fault \"x\""},
-        {{"fault"}, usage, "subcommand"},
+        {{"fault"}, usage, "a command is missing; known: list"},
         {{"watch", "heaters.nozle"}, failed, "no field"},
         {{"frobnicate"}, usage, "there is no command 'frobnicate'"},
         {{"get", "--jsn"}, usage, "get: there is no option '--jsn'; did you mean '--json'?"},
-        {{}, usage, "subcommand"},
+        {{}, usage, "a command is missing; known: get"},
     };
     for (const Mistake& wrong : all) {
         const Result result = live.ctl(wrong.args);

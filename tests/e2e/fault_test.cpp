@@ -341,11 +341,17 @@ TEST_CASE("tap: the line between a board and a screen misbehaves, both ways, and
     CHECK(tap.stop() == 0);
     CHECK(contains(tap.errors(), "Fault 1, drop:to_board,count=1, acted once on 1 line."));
     CHECK(contains(tap.errors(), "Fault 2, wrong_checksum:to_screen,count=5, acted 5 times on 5 lines."));
-    // Recorded is what the board said and got.
+    // Recorded is what the board said and got, and what the faults did to it.
+    int deeds = 0;
     for (const record::RecordedLine& recorded : record::load_recording(folder.file("tap.jsonl"))) {
+        if (recorded.from == record::RecordedLine::From::fault) {
+            ++deeds;
+            continue;
+        }
         CHECK(right(recorded.bytes));
         CHECK_FALSE(contains(recorded.bytes, "M104 S111"));
     }
+    CHECK(deeds == 6);
     CHECK(board.stop() == 0);
 }
 

@@ -99,10 +99,10 @@ TEST_CASE("the tour comes to every page to which a touch leads; what comes of fa
         }
         CHECK((!contains(line, ": no touch of this tour led to it") || line.starts_with("Too high: ")));
     }
+    missed.erase("Logo");  // there for 70 ms at this speed: met by a tour that begins so soon
     CHECK(missed == std::set<std::string>{"Console", "File opening error", "Invalid value",
-                                          "Limit switch, homing", "Limit switch, printing", "Logo",
-                                          "Not deleted", "Printing complete", "Unknown parameter",
-                                          "Unknown section"});
+                                          "Limit switch, homing", "Limit switch, printing", "Not deleted",
+                                          "Printing complete", "Unknown parameter", "Unknown section"});
 }
 
 TEST_CASE("a board without a screen says so") {

@@ -269,7 +269,7 @@ TEST_CASE("each mistake has its exit code and its sentence") {
     };
     const link::test::OtherPty pty;
     const std::vector<Mistake> mistakes{
-        {{"screen"}, usage, "subcommand"},
+        {{"screen"}, usage, "a command is missing; known: press"},
         {{"screen", "tour"}, usage, "--port"},
         {with({"--tcp", ":1", "tour"}), usage, "--tcp"},
         {with({"frobnicate"}), usage, "there is no command 'frobnicate'"},
