@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
+#include <cstdlib>
 #include <utility>
 
 #include "emulator/link/link.h"
@@ -19,6 +21,7 @@ using Clock = link::Timer::Clock;
 constexpr std::size_t stream_block = 16UL * 1024;
 /// Of the time, the page's requests get one part and the boards this many, should it come to that.
 constexpr int parts_for_others = 9;
+constexpr int socket_failed = 4;  ///< exit code, as for a socket that cannot be opened
 
 struct Header {
     const char* name;
@@ -150,6 +153,13 @@ struct HttpServer::Callbacks {
     static ssize_t read(void* request, std::uint64_t /*at*/, char* room, std::size_t size) {
         return static_cast<Connection*>(request)->read(room, size);
     }
+    /// The library cannot go on, and calls abort() where nobody does anything else: the system refuses what
+    /// it never should. There is no way back from here.
+    [[noreturn]] static void give_up(void*, const char*, unsigned, const char* reason) {
+        fmt::print(stderr, "The page cannot be served any longer, and with it ends the run: {}\n",
+                   reason == nullptr ? "" : reason);
+        std::_Exit(socket_failed);
+    }
     static void log(void* /*self*/, const char* /*format*/, va_list /*arguments*/) {}
     /// A path stays as it came: what would have to be decoded is no path of ours.
     static std::size_t keep_escapes(void* /*self*/, MHD_Connection* /*connection*/, char* text) {
@@ -196,6 +206,7 @@ HttpServer::HttpServer(link::EventLoop& loop, const std::string& where, HttpHand
                        nullptr},
         MHD_OptionItem{MHD_OPTION_NOTIFY_COMPLETED, reinterpret_cast<intptr_t>(&Callbacks::completed), this},
         MHD_OptionItem{MHD_OPTION_END, 0, nullptr}};
+    MHD_set_panic_func(&Callbacks::give_up, nullptr);
     daemon_ =
         MHD_start_daemon(MHD_USE_EPOLL | MHD_ALLOW_SUSPEND_RESUME | MHD_USE_ERROR_LOG, 0, nullptr, nullptr,
                          &Callbacks::answer, this, MHD_OPTION_ARRAY, options.data(), MHD_OPTION_END);
