@@ -40,6 +40,7 @@ def a30t(folder, page):
         page.open(board.ready['web'])
         page.wait_text('.warning', 'no real printer')
         page.wait_text('.face .top', 'Main')
+        page.wait(lambda: page.first_paint_ms() is not None, 'a first paint')
         paint = page.first_paint_ms()
         print(f'  first paint {paint:.0f} ms')
         page.go('screen')
@@ -240,6 +241,7 @@ def paint(folder, page):
             page.driver.execute_cdp_cmd('Network.clearBrowserCache', {})
             page.open(board.ready['web'])
             page.wait_text('.face .top', 'Main')
+            page.wait(lambda: page.first_paint_ms() is not None, 'a first paint')  # told a moment after it
             times.append(page.first_paint_ms())
         print('  first paint: ' + ', '.join(f'{each:.0f}' for each in times) + ' ms')
 

@@ -25,8 +25,8 @@ NEEDS_SER2NET = "Debian's packages are ser2net and python3-serial"
 
 
 def fill(card):
-    """A file whose print outlasts the buttons of its pages, and a folder."""
-    moves = "G1 X10 Y10 F1200\nG1 X200 Y200\n" * 2000
+    """A file whose print outlasts the buttons of its pages, and a folder. A pause waits for the moves already planned: short ones."""
+    moves = "G1 X10 Y10 F1200\nG1 X30 Y30\n" * 2000
     (card / "folder").mkdir()
     for file in (card / "pattern.gcode", card / "folder" / "cube.gcode"):
         file.write_text("G28\n" + moves, encoding="ascii")

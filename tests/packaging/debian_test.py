@@ -85,7 +85,7 @@ class BareDebian(unittest.TestCase):
                                " -o -path '/var/cache/*' -o -print").splitlines())
 
     def test_1_installs(self):
-        self.inside("apt-get install -y --no-install-recommends man-db bash-completion")
+        self.inside("apt-get update && apt-get install -y --no-install-recommends man-db bash-completion")
         depends = self.inside("dpkg-deb -f /fauxboard.deb Depends").strip()
         print(f"{os.path.getsize(self.root + '/fauxboard.deb') / 1e6:.1f} MB; depends on {depends}")
         before = self.inside("du -smx /usr /var/lib | cut -f1").split()
