@@ -15,6 +15,13 @@ void look_up(ActionContext& c, Args a) {
     c.machine.storage.looked_up = c.machine.storage.long_path(a[0].text);
 }
 
+/// What a file or the network asked for has none anyway, and must not take that of the line's command.
+void leave_unanswered(ActionContext& c, Args) {
+    if (machine::Transfer::is_host_line(c.machine.transfer.asker)) {
+        c.machine.host_side().leave_unanswered();
+    }
+}
+
 constexpr std::array name_args{
     ArgInfo{"name", text, true, "of a file or folder, from the root of the disk on"}};
 
@@ -34,11 +41,7 @@ constexpr std::array table{
                "the board was built without that command: host.unknown",
                {},
                [](ActionContext& c, Args) { c.machine.events.raise(machine::event("host.unknown")); }},
-    ActionInfo{"code.unanswered",
-               "",
-               "the command gets no acknowledgement",
-               {},
-               [](ActionContext& c, Args) { c.machine.host_side().leave_unanswered(); }},
+    ActionInfo{"code.unanswered", "", "the command gets no acknowledgement", {}, leave_unanswered},
     ActionInfo{"card.look_up", "", "finds the long path of a file or folder (M33): card.looked_up", name_args,
                look_up},
 };

@@ -41,7 +41,8 @@ class Transfer {
     /// The lines that are spoken as hosts speak are peers from here on, each one of its own.
     static constexpr Peer first_host_line = ~Peer{0} - 7;
     static constexpr Peer host_line(std::size_t number) { return first_host_line + number; }
-    static constexpr bool is_network(Peer peer) { return peer != serial_line && peer < first_host_line; }
+    static constexpr bool is_host_line(Peer peer) { return peer >= first_host_line; }
+    static constexpr bool is_network(Peer peer) { return peer != serial_line && !is_host_line(peer); }
     static constexpr std::size_t max_block = 1280;
     static constexpr SimTime idle_limit = std::chrono::seconds(30);
     static constexpr std::uint64_t max_bytes = 0x8000'0000;
