@@ -45,9 +45,18 @@ const std::vector<ActionRow>& host_action_rows() {
          [](Bench& b) {
              machine::HostSide& host = b.machine.host_side();
              host.begin(1, "M105", b.now);
+             b.machine.transfer.asker = machine::Transfer::host_line(1);
              b.run(R"("code.unanswered")");
              host.over();
              CHECK_FALSE(b.raised(machine::event("host.done")));
+             CHECK(host.line().unanswered == 1);
+             // What the network asks for takes nothing from the command of the line.
+             host.begin(1, "M400", b.now);
+             b.machine.transfer.asker = 7;
+             b.run(R"("code.unanswered")");
+             host.over();
+             CHECK(b.raised(machine::event("host.done")));
+             CHECK(host.line().unanswered == 1);
          }},
         {"card.look_up",
          [](Bench& b) {
