@@ -19,16 +19,11 @@ using board::Channel;
 namespace {
 
 struct Marlin : MarlinBench {
-    Marlin() : MarlinBench("marlin") {}
+    Marlin() = default;
     explicit Marlin(const std::string& variables)
         : MarlinBench(behaviour::load_profile(
               {"own.json", R"({"name": "own", "extends": "marlin", "variables": {)" + variables + "}}"},
               host::profile_finder())) {}
-    void home() {
-        say("G28");
-        run_for(30);
-        forget();
-    }
 };
 
 bool has(const std::string& text, std::string_view part) {

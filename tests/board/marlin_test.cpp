@@ -15,14 +15,8 @@ using board::Channel;
 namespace {
 
 struct Marlin : MarlinBench {
-    Marlin() : MarlinBench("marlin") {}
     /// What one line brought to the other.
     const std::string& heard_by_host() const { return said(Channel::host); }
-    void home() {
-        say("G28");
-        run_for(30);
-        forget();
-    }
 };
 
 std::ptrdiff_t count(const std::string& text, std::string_view part) {

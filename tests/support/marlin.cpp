@@ -80,6 +80,12 @@ void MarlinBench::run_for(double seconds) {
     take();
 }
 
+void MarlinBench::home() {
+    say("G28");
+    run_for(30);
+    forget();
+}
+
 std::string MarlinBench::told(std::string_view line, double seconds, board::Channel channel) {
     forget();
     say(line, channel, seconds);

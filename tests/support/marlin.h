@@ -24,7 +24,7 @@ std::string marlin_profile();
 class MarlinBench {
   public:
     /// One second after power-on, with a card that holds TEST.GCO of 1234 bytes.
-    explicit MarlinBench(const std::string& profile);
+    explicit MarlinBench(const std::string& profile = "marlin");
     explicit MarlinBench(std::shared_ptr<const behaviour::Profile> profile);
 
     machine::MemoryVolume card{{{"Long folder", true, {}, {}}}};
@@ -35,6 +35,8 @@ class MarlinBench {
     /// A line, and a moment for its answer.
     void say(std::string_view line, board::Channel channel = board::Channel::main, double seconds = 0.05);
     void run_for(double seconds);
+    /// All axes; what was said of it is forgotten.
+    void home();
     /// What the board said on the line since forget().
     const std::string& said(board::Channel channel = board::Channel::main) const {
         return said_[static_cast<std::size_t>(channel)];
