@@ -105,6 +105,7 @@ void Board::take_command_line(Channel channel, std::string_view bytes) {
         ++counters_.requests_lost;
         verdict = Verdict::queue_full;
     }
+    counted.waiting = from.commands.size();
     tell_received(channel, bytes, verdict);
     if (machine_->hung() || blank) {
         return;

@@ -10,8 +10,9 @@
 namespace fauxboard::filament {
 namespace {
 
-constexpr int end_of_file = 29;   ///< M29
-constexpr int log_to_file = 928;  ///< M928
+constexpr int end_of_file = 29;    ///< M29
+constexpr int write_to_file = 28;  ///< M28
+constexpr int log_to_file = 928;   ///< M928
 
 }  // namespace
 
@@ -131,8 +132,14 @@ bool HostCommands::write(std::string_view command, SimTime now) {
         code_ = nullptr;  // it is a text now, and over at once
     }
     file.unwritten.append(command).append("\r\n");  // as Marlin ends them
-    if (file.unwritten.size() >= block_bytes) {
+    const bool opens_another =
+        file.runs_too && line_.letter == 'M' && (line_.code == write_to_file || line_.code == log_to_file);
+    if (file.unwritten.size() >= block_bytes || opens_another) {
         flush(now);
+    }
+    if (opens_another) {  // which ends this one
+        const Job& job = source_.on.job;
+        transfer_.finish(now, Transfer::host_line(speaker), job.active() ? job.path() : std::string_view());
     }
     return !file.runs_too;
 }

@@ -63,7 +63,9 @@ void Printer::run_parts(SimTime now) {
     reports.advance(now, events);
     recovery.advance(now);
     motion.start_stream(now);
-    recovery.keep(now);
+    if (events.empty()) {  // what has just happened may end the job: an axis that was not found, say
+        recovery.keep(now);
+    }
     follow_filament();
     if (was_moving) {
         emit_after_motion();

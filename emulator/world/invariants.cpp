@@ -185,6 +185,22 @@ std::string told_of(const Tally& tally) {
     return fmt::format("{} moves and {} layers", tally[0], tally[1]);
 }
 
+/// How it stands, in the fields of whatever kind of machine it is.
+std::string print_stands(const machine::Machine& machine) {
+    std::string out;
+    for (const std::string_view path :
+         {"job.status", "job.byte", "print.state", "print.paused", "print.layer", "print.problem"}) {
+        const behaviour::Field* const field = behaviour::find_field(path);
+        const behaviour::Value value = field == nullptr ? behaviour::Value{} : field->get(machine);
+        if (!value.none()) {
+            out += fmt::format(
+                "{}{} {}", out.empty() ? "" : ", ", path,
+                value.is_text() ? fmt::format("\"{}\"", value.text) : fmt::format("{}", value.number));
+        }
+    }
+    return out;
+}
+
 std::string prints_end(const View& view) {
     const Ledger& l = view.ledger;
     const std::optional<Tally>& ended = l.prints.ended();
@@ -192,7 +208,7 @@ std::string prints_end(const View& view) {
         return {};
     }
     return ended ? fmt::format("a print had {} instead of {}", told_of(*ended), told_of(*l.proof))
-                 : "a print did not come to its end";
+                 : fmt::format("a print did not come to its end: {}", print_stands(view.board.machine()));
 }
 
 std::string light_is_right(const View& view) {

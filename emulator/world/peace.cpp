@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 
@@ -55,6 +56,24 @@ void World::ask(Channel channel) {
     }
 }
 
+/// As hosts do: a few ahead, and no more until they are acknowledged, however slow the axes are set.
+void World::let_most_be_acknowledged() {
+    constexpr int few = 4;
+    constexpr SimTime longest = std::chrono::hours(200);
+    for (SimTime wait = std::chrono::seconds(1); owed() > few && wait < longest; wait += wait / 2) {
+        pass(wait);
+    }
+}
+
+/// Of a USB side: until all that was asked has been carried out, however slow the axes are set.
+void World::let_moves_end() {
+    command("M400");
+    pass(rest);
+    for (int i = 0; i < most_rests && owed() > 0; ++i) {
+        pass(rest);
+    }
+}
+
 /// Many short moves by the USB side, each with its number and checksum, and where they lead: some by a
 /// distance and some to a place, so that their order tells.
 void World::walk() {
@@ -68,7 +87,7 @@ void World::walk() {
     command("G28");
     command("G90");
     command(fmt::format("G1 X{} Y{} F6000", corner, corner));
-    pass(rest);
+    let_moves_end();
     const auto at = [this](std::string_view path) { return number_of(board_->machine(), path).value_or(0); };
     const std::array<double, 2> start{at("position.x"), at("position.y")};
     Ledger::Walk walk;
@@ -83,14 +102,11 @@ void World::walk() {
         }
         command(to_place ? "G90" : "G91");
         command(fmt::format("G1 X{:.2f} Y{:.2f} F3000", by[0], by[1]));
-        // As hosts do: a few ahead, and no more until it is acknowledged.
-        for (int waited = 0; owed() > 4 && waited < 600; ++waited) {
-            pass(std::chrono::seconds(1));
-        }
+        let_most_be_acknowledged();
         pass(std::chrono::milliseconds(dice.below(200)));
     }
     command("G90");
-    pass(rest);
+    let_moves_end();
     walk.came_mm = {at("position.x"), at("position.y")};
     ledger_.walk = walk;
 }
@@ -104,16 +120,31 @@ void World::proof_print() {
     disk_.put(proof.file, cast_.files.at(proof.file));
     tinker([](machine::Machine& machine) {
         machine.stop_job();
+        machine.insert_card(0);  // a command that waited behind a print may have released it since
         machine.storage.choose(0);
     });
     act("print.stop");
     pass(rest);
     ledger_.prints.forget();
     ledger_.proof = proof.tally;
-    print(proof.file);
-    for (int i = 0; i < most_rests && !ledger_.prints.ended(); ++i) {
-        pass(rest);
+    // Twice, as a user would: after moves by hand a platform may be farther up than homing looks for its
+    // switch.
+    for (int tries = 0; tries < 2 && !ledger_.prints.ended(); ++tries) {
+        if (tries > 0) {
+            act(R"({"platform.jog": {"mm": -50}})");
+            pass(rest);
+        }
+        print(proof.file);
+        for (int i = 0; i < most_rests && prints(); ++i) {
+            pass(rest);
+        }
     }
+}
+
+/// Of whatever kind.
+bool World::prints() const {
+    const machine::Machine& machine = board_->machine();
+    return machine.job.active() || number_of(machine, "print.active").value_or(0) != 0;
 }
 
 void World::print(const std::string& file) {
@@ -146,8 +177,11 @@ void World::peace() {
         tinker([](machine::Machine& machine) { machine.user_continues(); });
         pass(rest);
     }
-    const machine::HostSide& lines = board_->machine().host_side();
-    for (int i = 0; i < most_rests && (owed() > 0 || lines.running()); ++i) {
+    const machine::HostSide& side = board_->machine().host_side();
+    const auto waits = [](const auto& line) { return line.waiting > 0; };
+    for (int i = 0; i < most_rests && (owed() > 0 || side.running() ||
+                                       std::any_of(side.lines.begin(), side.lines.end(), waits));
+         ++i) {
         pass(rest);  // what is asked waits behind the moves
     }
     if (board_->machine().hung()) {

@@ -140,6 +140,7 @@ void host_uploads(World& w, Dice& dice) {
     w.command("M28 " + name);
     for (const std::string& line : said) {
         w.command(line);
+        w.let_most_be_acknowledged();  // what is logged is carried out as well
     }
     if (!given_up) {
         w.command("M29");
@@ -166,19 +167,24 @@ void job_changes(World& w, Dice& dice) {
     w.tinker([&](machine::Machine& machine) {
         switch (dice.below(5)) {
             case 0:
+                w.remark("the job is paused");
                 machine.pause_job();
                 break;
             case 1:
+                w.remark("the job is resumed");
                 machine.resume_job();
                 break;
             case 2:
+                w.remark("the user continues");
                 machine.user_continues();
                 break;
             case 3:
+                w.remark("the job is stopped");
                 w.new_job();
                 machine.stop_job();
                 break;
             default:
+                w.remark("the job goes on elsewhere");
                 w.new_job();
                 machine.seek_job(static_cast<double>(dice.below(5000)));
         }
@@ -225,6 +231,9 @@ void something_is_wished(World& w, Dice& dice) {
             args += fmt::format("{}\"{}\": {}", args.empty() ? "" : ", ", arg.name, value);
         }
     }
+    if (action.name.starts_with("card.")) {
+        w.harmed();  // among them: one that cannot be read
+    }
     w.act(fmt::format("{{\"{}\": {{{}}}}}", action.name, args));
 }
 
@@ -242,24 +251,30 @@ void value_changes(World& w, Dice& dice) {
         }
     }
     const double share = static_cast<double>(dice.below(101)) / 100;
+    if (field.type == behaviour::FieldType::text) {
+        return;
+    }
+    const double value = field.min + share * (field.max - field.min);
+    w.remark(fmt::format("changes: {} = {}", field.path, value));
     w.tinker([&](machine::Machine& machine) {
-        if (field.type != behaviour::FieldType::text) {
-            const double value = field.min + share * (field.max - field.min);
-            behaviour::set_field(machine, field, behaviour::Value::of(value));
-        }
+        behaviour::set_field(machine, field, behaviour::Value::of(value));
     });
 }
 
 void something_breaks(World& w, Dice& dice) {
     const machine::FaultInfo& sort = *one_of(machine::fault_rows(), dice);
+    w.harmed();  // some of it is over at once, and has happened all the same
+    w.remark(fmt::format("breaks: {}", sort.name));
     w.tinker([&](machine::Machine& machine) { machine.faults.add(w.now(), machine::default_request(sort)); });
 }
 
 void all_is_mended(World& w, Dice&) {
+    w.remark("all is mended");
     w.tinker([](machine::Machine& machine) { machine.faults.clear(); });
 }
 
 void disk_has_trouble(World& w, Dice& dice) {
+    w.remark("the disk has trouble, or none any more");
     w.disk().set_trouble(static_cast<Disk::Trouble>(dice.below(4)));
 }
 

@@ -125,10 +125,8 @@ std::int64_t World::owed() const {
 }
 
 /// Also when a command or a rule restarts it.
-void World::on_power_on(SimTime now) {
-    if (listener_ != nullptr) {
-        listener_->on_notice(now, board::Level::info, "the board is switched on");
-    }
+void World::on_power_on(SimTime) {
+    remark("the board is switched on");
     ledger_.commands_taken = ledger_.commands_acknowledged = 0;
     ledger_.ok_of_resend = false;
     line_number_ = 0;
@@ -298,9 +296,17 @@ void World::tinker(const std::function<void(machine::Machine&)>& use) {
     run_to(now_);
 }
 
+void World::remark(const std::string& text) {
+    if (listener_ != nullptr) {
+        listener_->on_notice(now_, board::Level::info, text);
+    }
+}
+
 void World::act(std::string_view words) {
     try {
-        for (const behaviour::ActionCall& call : behaviour::parse_action_words(words, *cast_.profile)) {
+        const auto calls = behaviour::parse_action_words(words, *cast_.profile);
+        remark(fmt::format("wished: {}", words));
+        for (const behaviour::ActionCall& call : calls) {
             board_->act(now_, call);
         }
     } catch (const behaviour::ActionWordsError&) {

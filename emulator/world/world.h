@@ -53,6 +53,7 @@ class World final : private board::Observer {
     void say(board::Channel channel, std::string_view bytes);
     /// A command of the USB side, framed as hosts do.
     void command(std::string_view body);
+    void let_most_be_acknowledged();
     void datagram(std::uint64_t peer, std::string_view bytes);
     void pass(SimTime time);
     void tinker(const std::function<void(machine::Machine&)>& use);
@@ -69,6 +70,9 @@ class World final : private board::Observer {
         ledger_.whole[path].insert(std::move(content));
     }
     void misset() { ledger_.misset = true; }
+    void harmed() { ledger_.harmed = true; }
+    /// For who listens: what was done to the machine.
+    void remark(const std::string& text);
     void new_job() { ++ledger_.job_number; }
     /// How many commands of the USB side still wait for their acknowledgement.
     std::int64_t owed() const;
@@ -94,8 +98,10 @@ class World final : private board::Observer {
     void look(Moment moment, board::Channel channel = board::Channel::main, std::string_view output = {});
     void after_step();
     void ask(board::Channel channel);
+    void let_moves_end();
     void walk();
     void proof_print();
+    bool prints() const;
     void note_place();
 
     const Cast& cast_;

@@ -153,7 +153,20 @@ TEST_CASE_FIXTURE(Marlin, "Marlin: M928 writes what comes, and carries it out as
     const auto read = card.read("log.gco", 0, text);
     REQUIRE(read.has_value());
     CHECK(text.substr(0, *read) == "M92\r\nG1 X10 F3000\r\n");
+    // M28 after it is still in the log, and what follows in its file alone.
+    say("M928 log.gco");
+    CHECK(numbered("N4 M28 up.gco") == "echo:Now fresh file: up.gco\nWriting to file: up.gco\nok\n");
+    CHECK(numbered("N5 G1 X20") == "ok\n");
+    CHECK(numbered("N6 M29") == "Done saving file.\nok\n");
+    const auto content = [&](const char* name) {
+        const auto size = card.read(name, 0, text);
+        return size ? text.substr(0, *size) : "";
+    };
+    CHECK(content("log.gco") == "M28 up.gco\r\n");
+    CHECK(content("up.gco") == "G1 X20\r\n");
+    CHECK(number("position.x") == doctest::Approx(20));
     // M28 carries nothing out, also after it.
+    say("M110 N3");
     say("M28 up.gco");
     CHECK(numbered("N4 M92") == "ok\n");
     CHECK(numbered("N5 M29") == "Done saving file.\nok\n");
