@@ -20,7 +20,7 @@ class Lamp {
         if (time > SimTime{0}) {
             on_ = !dead;
             counting_ = true;
-            since_ = now;
+            since_ = begun_ = now;
             off_due_ = now + time;
         }
     }
@@ -28,12 +28,12 @@ class Lamp {
     void light_on(SimTime now) {
         off(now);
         on_ = !dead;
-        since_ = now;
+        since_ = begun_ = now;
     }
     void off(SimTime now) {
         if (on_) {
             lit_ += now - since_;
-            last_ = now - since_;
+            last_ = now - begun_;
         }
         on_ = counting_ = false;
         off_due_ = never;
@@ -88,7 +88,8 @@ class Lamp {
     bool on_ = false;
     bool counting_ = false;
     bool fan_ = false;
-    SimTime since_{0};
+    SimTime begun_{0};  ///< this light
+    SimTime since_{0};  ///< what of it is not in lit_ yet
     SimTime lit_{0};
     SimTime last_{0};
     SimTime off_due_ = never;

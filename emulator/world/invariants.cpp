@@ -185,11 +185,11 @@ std::string told_of(const Tally& tally) {
     return fmt::format("{} moves and {} layers", tally[0], tally[1]);
 }
 
-/// How it stands, in the fields of whatever kind of machine it is.
-std::string print_stands(const machine::Machine& machine) {
+/// What those fields say, of whatever kind of machine it is.
+template <std::size_t n>
+std::string told_by(const machine::Machine& machine, const std::array<std::string_view, n>& paths) {
     std::string out;
-    for (const std::string_view path :
-         {"job.status", "job.byte", "print.state", "print.paused", "print.layer", "print.problem"}) {
+    for (const std::string_view path : paths) {
         const behaviour::Field* const field = behaviour::find_field(path);
         const behaviour::Value value = field == nullptr ? behaviour::Value{} : field->get(machine);
         if (!value.none()) {
@@ -207,13 +207,18 @@ std::string prints_end(const View& view) {
     if (!l.proof || ended == l.proof) {
         return {};
     }
+    constexpr std::array<std::string_view, 6> stands{"job.status",   "job.byte",    "print.state",
+                                                     "print.paused", "print.layer", "print.problem"};
     return ended ? fmt::format("a print had {} instead of {}", told_of(*ended), told_of(*l.proof))
-                 : fmt::format("a print did not come to its end: {}", print_stands(view.board.machine()));
+                 : fmt::format("a print did not come to its end: {}", told_by(view.board.machine(), stands));
 }
 
 std::string light_is_right(const View& view) {
     const double broken = number_of(view.board.machine(), "watch.broken").value_or(0);
-    return broken == 0 || view.ledger.harmed ? "" : fmt::format("{} moments in which it was not so", broken);
+    constexpr std::array<std::string_view, 6> seen{"watch.lit_moving",        "watch.into_model",
+                                                   "watch.wrong_pictures",    "watch.lit_at_end",
+                                                   "watch.exposure_error_ms", "print.state"};
+    return broken == 0 || view.ledger.harmed ? "" : told_by(view.board.machine(), seen);
 }
 
 std::string screen_lives(const View& view) {

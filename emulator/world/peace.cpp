@@ -56,12 +56,17 @@ void World::ask(Channel channel) {
     }
 }
 
-/// As hosts do: a few ahead, and no more until they are acknowledged, however slow the axes are set.
+/// As hosts do: a few ahead, and no more until they are acknowledged, however slow the axes are set. What waits
+/// for the user is continued after an hour.
 void World::let_most_be_acknowledged() {
     constexpr int few = 4;
     constexpr SimTime longest = std::chrono::hours(200);
     for (SimTime wait = std::chrono::seconds(1); owed() > few && wait < longest; wait += wait / 2) {
         pass(wait);
+        if (wait > std::chrono::hours(1) && board_->machine().job.waits_for_user) {
+            tinker([](machine::Machine& machine) { machine.user_continues(); });
+            wait = std::chrono::seconds(1);
+        }
     }
 }
 

@@ -121,7 +121,7 @@ void host_prints(World& w, Dice& dice) {
 }
 
 void host_uploads(World& w, Dice& dice) {
-    if (w.board().machine().host_side().running()) {
+    if (w.owed() > 0) {
         return;  // a good host waits
     }
     // One that will not come back has a name of its own: what others say then goes into that file.

@@ -48,6 +48,20 @@ void watch(DlpBench& bench) {
     };
 }
 
+TEST_CASE("DLP print: an hour that is counted in the middle of an exposure makes it no shorter") {
+    PanelPws wishes = few(1);
+    wishes.bottom_exposure_s = 7'000;
+    BoardConfig config;
+    config.firmware = Firmware::v008;
+    DlpBench bench(config, stick_with(wishes));
+    start(bench);
+    REQUIRE(bench.run_to(Event::print_exposing));
+    REQUIRE(bench.run_to(Event::print_exposed));
+    REQUIRE(bench.now > from_seconds(3'600));
+    CHECK(bench.board.lamp.last() == from_seconds(7'000));
+    CHECK(bench.board.watch.exposure_error_ms < 1);
+}
+
 TEST_CASE("DLP print: two layers, from homing to the end") {
     DlpBench bench({}, stick_with(few(2)));
     watch(bench);
