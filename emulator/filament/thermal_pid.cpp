@@ -9,9 +9,16 @@ double ThermalPid::update(double target_c, double printed_c) {
     const double error = target_c - printed_c;
     const double slope = printed_c - previous_c_;
     previous_c_ = printed_c;
-    if (error > c.range_c || error < -c.off_below_c) {
+    if (target_c != target_c_) {
+        target_c_ = target_c;
         in_range_ = false;
-        return error > 0 ? c.max_output : 0.0;
+    }
+    if (error > c.range_c) {
+        return c.max_output;
+    }
+    if (error < -c.off_below_c) {
+        in_range_ = false;
+        return 0;
     }
     if (!in_range_) {
         in_range_ = true;

@@ -113,6 +113,23 @@ TEST_CASE("thermal: targets are kept within bounds") {
     CHECK_FALSE(thermal.set_target(HeaterId::bed, 0));
 }
 
+TEST_CASE("thermal: every target that can be set is reached, and held") {
+    const ThermalConfig config;
+    for (const auto& [id, highest_c] : {std::pair(HeaterId::nozzle, config.nozzle.max_target_c),
+                                        std::pair(HeaterId::bed, config.bed.max_target_c)}) {
+        for (double target_c = 50; target_c <= highest_c; target_c += 10) {
+            CAPTURE(target_c);
+            Thermal thermal(config, seed);
+            thermal.power_on(SimTime{0});
+            thermal.set_target(id, target_c);
+            thermal.advance(std::chrono::minutes(20));
+            CHECK(thermal.reached(id));
+            thermal.advance(std::chrono::minutes(60));
+            CHECK(thermal.temperature_c(id) == doctest::Approx(target_c).epsilon(0.03));
+        }
+    }
+}
+
 TEST_CASE("thermal: any splitting of time gives the same bits") {
     const ThermalConfig config;
     Thermal whole(config, seed);
