@@ -83,7 +83,8 @@ void World::on_received(SimTime now, Channel channel, std::string_view line, boa
     ++requests_;
     note(line);
     if (line.find("M24") != std::string_view::npos || line.find("M26") != std::string_view::npos) {
-        new_job();  // with an S it is told to go on elsewhere
+        new_job();  // with an S it is told to go on elsewhere, once it is carried out
+        told_to_jump_ = now;
     }
     std::array<char, protocol::max_line_bytes> room;
     const std::string_view kept = protocol::read_host_line(line, room, protocol::max_line_bytes);
@@ -179,6 +180,12 @@ void World::look(Moment moment, Channel channel, std::string_view output) {
 }
 
 void World::after_step() {
+    if (told_to_jump_) {
+        new_job();
+        if (now_ > *told_to_jump_ + std::chrono::seconds(10) && owed() <= 0) {
+            told_to_jump_.reset();
+        }
+    }
     ledger_.most_bytes_read = std::max(ledger_.most_bytes_read, disk_.take_bytes_read());
     look(Moment::step);
     const machine::Machine& machine = board_->machine();
@@ -343,6 +350,7 @@ void World::power_cut(fault::Dice& dice) {
     }
     past_ += now_;
     now_ = SimTime{0};
+    told_to_jump_.reset();
     if (screen_) {
         screen_.emplace(cast_.screen);
         screen_->power_on(now_);
