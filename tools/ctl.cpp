@@ -17,6 +17,7 @@
 #include "tools/control_client.h"
 #include "tools/ctl_text.h"
 #include "tools/file_roles.h"
+#include "tools/option_values.h"
 #include "tools/report.h"
 
 namespace fauxboard::tools {
@@ -414,7 +415,7 @@ void add_ctl(CLI::App& app, ExitCode& exit) {
     command->add_flag("--json", ctl->json, "Print answers and events as they are: JSON lines");
     command->add_option("--timeout", ctl->timeout_ms, "How long to wait for an answer, ms")
         ->type_name("MS")
-        ->check(CLI::Range(1, 86'400'000))
+        ->check(whole_between(1, 86'400'000))
         ->capture_default_str();
     add_values(*command, *ctl);
     add_doing(*command, *ctl);

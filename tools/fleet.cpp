@@ -230,7 +230,7 @@ void add_fleet(CLI::App& app, ExitCode& exit) {
         app.add_subcommand("fleet", "Be many boards in one process, each on lines of its own");
     const auto arguments = std::make_shared<FleetArguments>();
     command
-        ->add_option("file", arguments->file,
+        ->add_option("FILE", arguments->file,
                      "The boards, as JSON: {\"boards\": [{\"profile\": ..., \"count\": 20}]}")
         ->type_name("FILE.json")
         ->required();

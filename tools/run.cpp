@@ -12,7 +12,6 @@
 #include <system_error>
 #include <vector>
 
-#include "emulator/behaviour/own_words.h"
 #include "emulator/fault/printer_fault.h"
 #include "emulator/host/json_log.h"
 #include "emulator/host/line_faults.h"
@@ -29,6 +28,7 @@
 #include "tools/commands.h"
 #include "tools/file_roles.h"
 #include "tools/profile_changes.h"
+#include "tools/profile_words.h"
 #include "tools/progress.h"
 #include "tools/ready_line.h"
 #include "tools/report.h"
@@ -42,19 +42,6 @@ namespace {
 constexpr double log_lines_per_second = 100;
 
 constexpr std::chrono::milliseconds progress_pause{200};
-
-/// What the profile says of a line; that it knows it, where it has rules for what no table has.
-std::string own_words(const behaviour::Profile& profile, board::Channel channel,
-                      const protocol::DecodedLine& line) {
-    std::string words = behaviour::own_words(profile, line);
-    if (words.empty() && line.code == nullptr && line.direction == protocol::Direction::to_board) {
-        const auto command = protocol::parse_command(line.code_text);
-        if (command && profile.rules_for(channel, *command) != nullptr) {
-            words = line.code_text + ": the profile's own";
-        }
-    }
-    return words;
-}
 
 /// Everything that one run needs, in the order in which it must come and (backwards) go.
 class Run {
@@ -131,7 +118,7 @@ void Run::set_up() {
     check_files();
     log_.call_peer(unit_.profile()->line.peer);
     const auto own = [this](board::Channel channel, const protocol::DecodedLine& line) {
-        return own_words(*unit_.profile(), channel, line);
+        return profile_words(*unit_.profile(), channel, line);
     };
     log_.ask(own);
     json_.ask(own);

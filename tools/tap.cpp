@@ -282,6 +282,7 @@ void declare(CLI::App& command, TapOptions& options) {
             "--board",
             [&options](const std::string& text) { options.board = text == "A" ? TapSide::a : TapSide::b; },
             "Which end is the board (default: as is seen by what is said, else B)")
+        ->type_name("A|B")
         ->check(one_of({"A", "B"}));
     command.add_option("--record", options.record, "Write every line to a recording")->type_name("FILE");
     command.add_option("--pcapng", options.pcapng, "Write a capture for Wireshark")->type_name("FILE");
