@@ -64,6 +64,7 @@ void add_describe(CLI::App& app, ExitCode& exit) {
     command
         ->add_option("--schema", arguments->schema,
                      "Print this schema of profiles with its generated part made anew")
+        ->type_name("FILE")
         ->excludes(json)
         ->excludes(markdown);
     markdown->excludes(json);
