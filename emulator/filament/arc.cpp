@@ -27,7 +27,7 @@ bool ArcSegments::begin(const Request& request) {
         j = dy / 2 - side * beside * dx;
     }
     radius_ = std::hypot(i, j);
-    if (!(radius_ > 0) || !std::isfinite(radius_)) {
+    if (!(radius_ > 0 && radius_ <= widest_mm)) {
         return false;
     }
     centre_x_ = request.from[0] + i;

@@ -18,8 +18,9 @@ class ArcSegments {
         double feed_mm_s = 0;
     };
 
-    /// False, and nothing to do, when there is no such arc: no centre, or a radius and no way. A radius that
-    /// is too short makes a half circle, as in Marlin.
+    /// False, and nothing to do, when there is no such arc: no centre, a radius and no way, or one beyond a
+    /// kilometre (chosen: it would cross the bed for months). A radius that is too short makes a half circle,
+    /// as in Marlin.
     bool begin(const Request& request);
     bool active() const { return next_ <= count_; }
     /// The end of the next straight move.
@@ -29,7 +30,8 @@ class ArcSegments {
 
   private:
     static constexpr double segment_mm = 1;
-    static constexpr double most_segments = 1e6;
+    static constexpr double most_segments = 65'535;  ///< Marlin counts them in 16 bits
+    static constexpr double widest_mm = 1e6;
 
     Request request_;
     double centre_x_ = 0, centre_y_ = 0, start_angle_ = 0, sweep_ = 0, radius_ = 0;

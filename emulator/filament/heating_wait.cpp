@@ -1,6 +1,7 @@
 #include "emulator/filament/heating_wait.h"
 
 #include <cmath>
+#include <utility>
 
 #include "emulator/filament/event_rows.h"
 
@@ -18,6 +19,7 @@ void HeatingWait::start(HeaterId heater, SimTime now, EventQueue& events, bool c
     active_ = first_look_ = true;
     cools_ = cools;
     heater_ = heater;
+    target_c_.reset();
     counter_ = 0;
     left_s_ = -1;
     settled_ = cooled_ = never;
@@ -82,7 +84,11 @@ void HeatingWait::advance(SimTime now, const Thermal& thermal, EventQueue& event
     next_ += step;
     left_s_ = settled_ == never ? -1 : static_cast<int>((settled_ - now) / SimTime{1'000'000});
     report(now, events);
-    if (done(now, thermal) || gives_up(now, thermal)) {
+    const double target_c = thermal.target_c(heater_);
+    const bool changed = std::exchange(target_c_, target_c).value_or(target_c) != target_c;
+    // As in Marlin: of a target that was changed meanwhile only heating is waited for.
+    const bool lowered = changed && !cools_ && thermal.above(heater_);
+    if (lowered || done(now, thermal) || gives_up(now, thermal)) {
         cancel(events);
     }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "emulator/filament/names.h"
 #include "emulator/filament/thermal.h"
@@ -54,6 +55,7 @@ class HeatingWait {
     HeaterId heater_ = HeaterId::nozzle;
     std::uint8_t counter_ = 0;
     int left_s_ = -1;
+    std::optional<double> target_c_;  ///< when it was last looked
     SimTime report_due_ = never;
     SimTime settled_ = never;  ///< when it will have been there long enough
     SimTime cooled_ = never;   ///< when it is next looked whether it cools at all

@@ -237,6 +237,7 @@ TEST_CASE_FIXTURE(Bench, "host lines: full circles run, arcs without a centre ar
     }
     CHECK(told("G2 X60 Y50 I0 J0") == "Error:G2/G3 bad parameters\nok\n");
     CHECK(told("G2 X60 Y50") == "Error:G2/G3 bad parameters\nok\n");
+    CHECK(told("G2 J15924972968424246021") == "Error:G2/G3 bad parameters\nok\n");
     CHECK(told("G3 R5") == "Error:G2/G3 bad parameters\nok\n");
     CHECK(told("G2 X60 Y50 R4", 5) == "ok\n");
     CHECK(driver.number("position.x") == 60);

@@ -90,3 +90,18 @@ TEST_CASE("waiting: it ends when the target is taken away, and when it is cancel
     CHECK(bench.events.take() == event("heating.wait_started"));
     CHECK(bench.events.take() == event("heating.wait_done"));
 }
+
+TEST_CASE("waiting: where it has to settle, a target that somebody lowers meanwhile ends it") {
+    Bench bench;
+    bench.waiting.residency_s = 10;
+    HeatingWait& wait = bench.wait;
+    bench.thermal.set_target(HeaterId::nozzle, 100);
+    wait.start(HeaterId::nozzle, bench.now, bench.events);
+    bench.run_until(60);
+    REQUIRE(wait.active());
+    REQUIRE(bench.thermal.sensed_c(HeaterId::nozzle) > 30);
+    bench.thermal.set_target(HeaterId::nozzle, 3);
+    bench.run_until(62);
+    CHECK_FALSE(wait.active());
+    CHECK(bench.done == 1);
+}
