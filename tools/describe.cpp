@@ -57,7 +57,7 @@ void add_describe(CLI::App& app, ExitCode& exit) {
             "WORD", arguments->words,
             "Parts (fields, actions, events, codes, faults, control, scenarios), or one of what they "
             "hold: heaters.nozzle.target, L3, motion.home, jam; all when none is named")
-        ->type_name("");
+        ->type_name("fields|actions|events|codes|faults|control|scenarios");
     CLI::Option* json = command->add_flag("--json", arguments->json, "As a JSON object");
     CLI::Option* markdown = command->add_flag("--markdown", arguments->markdown,
                                               "All of it as the Markdown page profiles/REFERENCE.md");
