@@ -327,6 +327,12 @@ void BoardUnit::close() {
     if (host_link_) {
         host_link_->close();
     }
+    if (spi_) {
+        spi_->finish();
+    }
+    if (panel_folder_) {
+        panel_folder_->finish();
+    }
 }
 
 /// What passed on its lines; nothing of a board that has none.

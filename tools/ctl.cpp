@@ -16,6 +16,7 @@
 #include "emulator/link/output_file.h"
 #include "tools/control_client.h"
 #include "tools/ctl_text.h"
+#include "tools/file_roles.h"
 #include "tools/option_values.h"
 #include "tools/report.h"
 
@@ -156,6 +157,9 @@ ExitCode watch(const Ctl& ctl, ControlClient& client) {
 
 ExitCode ctl_main(const Ctl& ctl) {
     try {
+        FileRoles roles;
+        roles.talks("the control channel", ctl.path);
+        roles.writes("the picture", ctl.picture);
         // What is watched may be silent for hours, and time that jumps takes as long as it takes.
         const bool patient = ctl.raw || !ctl.subscriptions.empty() ||
                              ctl.request.value("op", "") == "advance" ||
@@ -168,6 +172,8 @@ ExitCode ctl_main(const Ctl& ctl) {
         return ctl.subscriptions.empty() ? one_request(ctl, client) : watch(ctl, client);
     } catch (const link::LinkError& error) {
         return complain("ctl", ExitCode::no_port, error.what());
+    } catch (const link::HostError& error) {
+        return complain("ctl", ExitCode::bad_input, error.what());
     }
 }
 

@@ -16,6 +16,7 @@
 #include "emulator/record/compare.h"
 #include "emulator/record/plot.h"
 #include "tools/batch.h"
+#include "tools/file_roles.h"
 #include "tools/option_values.h"
 #include "tools/progress.h"
 #include "tools/report.h"
@@ -106,6 +107,10 @@ ExitCode compare(const ReplayArguments& arguments, const std::shared_ptr<const b
 
 ExitCode replay(const ReplayArguments& arguments) {
     const auto profile = host::load_profile_by_name(arguments.profile);
+    FileRoles roles;
+    roles.reads("the profile", profile->files);
+    roles.reads("the recording", arguments.capture);
+    roles.writes("the picture", arguments.plot);
     record::ReplayOptions options = arguments.options;
     std::optional<host::FolderCard> card;
     if (!arguments.sd.empty()) {

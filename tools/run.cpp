@@ -26,6 +26,7 @@
 #include "protocol/command.h"
 #include "tools/board_unit.h"
 #include "tools/commands.h"
+#include "tools/file_roles.h"
 #include "tools/profile_changes.h"
 #include "tools/profile_words.h"
 #include "tools/progress.h"
@@ -66,6 +67,7 @@ class Run {
         return speed.max ? 0 : log_lines_per_second / speed.factor;
     }
     void set_up();
+    void check_files() const;
     void open_log();
     void open_script();
     ExitCode outcome();
@@ -98,7 +100,22 @@ class Run {
     ProfileChanges changes_{options_.profile};
 };
 
+/// Before anything is opened: that may empty a file.
+void Run::check_files() const {
+    FileRoles roles;
+    roles.reads("the profile", unit_.profile()->files);
+    if (scenario_) {
+        roles.reads("the scenario", scenario_->files);
+    }
+    if (scenario_ && scenario_->cast.screen) {
+        roles.reads("the screen", scenario_->cast.screen->files);
+    }
+    roles.add_log(options_.log);
+    roles.add_board(options_);
+}
+
 void Run::set_up() {
+    check_files();
     log_.call_peer(unit_.profile()->line.peer);
     const auto own = [this](board::Channel channel, const protocol::DecodedLine& line) {
         return profile_words(*unit_.profile(), channel, line);
@@ -272,6 +289,9 @@ ExitCode Run::operator()() {
     }
     panel_.reset();
     unit_.close();
+    if (recorder_) {
+        recorder_->finish(unit_.live().now());
+    }
     log_.finish(unit_.live().now());
     const std::string summary = unit_.summary();
     err_.write(summary);
