@@ -11,6 +11,7 @@ build_packages=(clang lld g++ cmake ninja-build pkg-config libserialport-dev nlo
                 libfreetype-dev fonts-dejavu-core libmd-dev)
 test_packages=(doctest-dev libbenchmark-dev libclang-rt-dev printrun-common python3-serial
                clang-format)
+lint_packages=(clang-tidy)
 # Of these only the files are taken: what they depend on is for uses that nobody has here.
 header_packages=(libvalijson-dev)
 
