@@ -1,5 +1,5 @@
-// Where everything stands on a screen that hangs on a line, whose profile has no places: it is touched and drawn
-// by them.
+// Where everything stands on a screen that hangs on a line, whose profile has no places: it is touched and
+// drawn by them.
 
 #include <doctest/doctest.h>
 
@@ -50,7 +50,8 @@ TEST_CASE("scene of a line's screen: every page has all its lines and buttons, a
     }
 }
 
-TEST_CASE("scene of a line's screen: a control is found by its name, and is shut where the screen has it shut") {
+TEST_CASE(
+    "scene of a line's screen: a control is found by its name, and is shut where the screen has it shut") {
     Bench bench;
     const Scene scene = screen::scene_of(bench->standpoint());
     const screen::PageView view = screen::view_page(bench->standpoint());

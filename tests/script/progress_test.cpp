@@ -25,7 +25,8 @@ class BareStage final : public Stage {
 struct Run {
     explicit Run(std::string_view steps) : player(testing::load_steps(steps), 0) {}
     Json at(SimTime now) {
-        for (stage.now = std::min(now, player.advance(stage.now, {}, stage)); stage.now < now && !player.done();
+        for (stage.now = std::min(now, player.advance(stage.now, {}, stage));
+             stage.now < now && !player.done();
              stage.now = std::min(now, player.advance(stage.now, {}, stage))) {
         }
         if (!player.done()) player.advance(now, {}, stage);
@@ -95,7 +96,8 @@ TEST_CASE("steps that want what a run has not say so and fail") {
     };
     CHECK(sentence(R"([{"fault": "drop:every=3"}])").find("the line of this run takes no faults") !=
           std::string::npos);
-    CHECK(sentence(R"([{"clear": "all"}])").find("the line of this run takes no faults") != std::string::npos);
+    CHECK(sentence(R"([{"clear": "all"}])").find("the line of this run takes no faults") !=
+          std::string::npos);
 }
 
 }  // namespace
