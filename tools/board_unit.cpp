@@ -122,7 +122,7 @@ void BoardUnit::add_faults() {
             throw fault::FaultSpecError({fmt::format("fault \"{}\": {}", text,
                                                      board_->machine().faults.refusal(*spec.kind->printer))});
         }
-        observers_.on_world(SimTime{0}, fault::world_words(request, SimTime{0}));
+        broken_from_start_.push_back(fault::world_words(request, SimTime{0}));
     }
 }
 
@@ -295,6 +295,9 @@ std::string BoardUnit::where() const {
 }
 
 void BoardUnit::start(SimTime duration, std::function<void()> on_end) {
+    for (const std::string& words : broken_from_start_) {
+        observers_.on_world(SimTime{0}, words);
+    }
     live_->start(duration, std::move(on_end));
     if (plug_) {
         plug_->start();
@@ -323,6 +326,12 @@ void BoardUnit::close() {
     }
     if (host_link_) {
         host_link_->close();
+    }
+    if (spi_) {
+        spi_->finish();
+    }
+    if (panel_folder_) {
+        panel_folder_->finish();
     }
 }
 

@@ -118,6 +118,7 @@ class BoardUnit {
     std::unique_ptr<link::Link> host_wire_;  ///< the board's USB port as it is
     std::optional<host::FaultyLink> host_link_;
     std::optional<host::LineFaults> faults_;
+    std::vector<std::string> broken_from_start_;  ///< faults of the printer, told when it starts
     std::optional<host::FaultWatch> fault_watch_;
     std::unique_ptr<host::Alarm> fault_alarm_;  ///< when a fault of the printer begins or ends
     std::optional<touch::TouchScreen> screen_;  ///< part of the board

@@ -5,17 +5,29 @@
 
 #include <CLI/Option.hpp>
 #include <algorithm>
+#include <cctype>
+#include <utility>
 
 #include "emulator/behaviour/nearest.h"
 
 namespace fauxboard::tools {
 namespace {
 
+/// Its type, without the library's own words for what is valid.
+std::string type_of(const CLI::Option& option) {
+    std::string type = option.get_type_name();
+    for (const std::string_view valid : {":{", ":UINT", ":INT", ":FLOAT", ":NONNEGATIVE", ":POSITIVE"}) {
+        type.resize(std::min(type.size(), type.find(valid)));
+    }
+    return type;
+}
+
 DeclaredOption describe(const CLI::Option& option) {
     DeclaredOption out;
     out.names = option_names(option);
     out.positional = out.names.empty() ? option.get_name(true) : std::string();
     out.value = option_value(option);
+    out.type = type_of(option);
     out.help = option.get_description();
     out.required = option.get_required();
     return out;
@@ -99,13 +111,54 @@ std::string unknown_command(const CLI::App& command, const std::string& word) {
     return sentence(command, "command", word, known, true);
 }
 
+/// `-5` is a number, and `-` standard input.
+bool is_option(const std::string& word) {
+    return word.starts_with("--") ||
+           (word.size() > 1 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1])) != 0);
+}
+
 std::size_t count_positionals(const CLI::App& command) {
     const std::vector<DeclaredOption> options = declared_options(command);
     return static_cast<std::size_t>(std::count_if(
         options.begin(), options.end(), [](const DeclaredOption& option) { return option.names.empty(); }));
 }
 
+/// What the library says of a value that is not there and of a word too many, as the rest of the program
+/// would.
+std::string plainly(const std::string& what) {
+    if (const std::size_t colon = what.find(": "), missing = what.rfind(" missing");
+        colon != std::string::npos && missing == what.size() - std::string_view(" missing").size()) {
+        const std::size_t value = what.find(" required ");
+        return value == std::string::npos
+                   ? what
+                   : what.substr(0, colon) + " needs a value" +
+                         what.substr(value + std::string_view(" required").size(),
+                                     missing - value - std::string_view(" required").size());
+    }
+    for (const std::string_view many :
+         {"The following argument was not expected: ", "The following arguments were not expected: "}) {
+        if (what.starts_with(many)) {
+            return "not expected: " + what.substr(many.size());
+        }
+    }
+    return what;
+}
+
 }  // namespace
+
+std::vector<std::string> DeclaredOption::choices() const {
+    std::vector<std::string> words(1);
+    for (const char c : type) {
+        if (c == '|') {
+            words.emplace_back();
+        } else if (std::islower(static_cast<unsigned char>(c)) == 0) {
+            return {};  // a placeholder, such as NAME
+        } else {
+            words.back() += c;
+        }
+    }
+    return words.size() > 1 ? words : std::vector<std::string>{};
+}
 
 std::vector<const CLI::App*> commands_of(const CLI::App& command) {
     return children(command, true);
@@ -135,12 +188,7 @@ std::string option_value(const CLI::Option& option) {
     if (option_names(option).empty() || option.get_items_expected_max() == 0) {
         return {};
     }
-    std::string type = option.get_type_name();
-    // Behind it the library puts its own words for what is valid.
-    for (const std::string_view valid : {":{", ":UINT", ":INT", ":FLOAT", ":NONNEGATIVE", ":POSITIVE"}) {
-        type.resize(std::min(type.size(), type.find(valid)));
-    }
-    return type;
+    return type_of(option);
 }
 
 std::string unknown_word(const CLI::App& app, const std::vector<std::string>& words) {
@@ -148,14 +196,15 @@ std::string unknown_word(const CLI::App& app, const std::vector<std::string>& wo
     std::size_t positionals = count_positionals(app);  // which may come before a subcommand
     for (std::size_t i = 0; i < words.size() && words[i] != "--"; ++i) {
         const std::string& word = words[i];
-        if (word.starts_with("--")) {
-            const CLI::Option* const option = option_of(*command, word);
+        if (is_option(word)) {
+            const bool one_letter = word[1] != '-';  // behind which others, or its value, may stand
+            const std::string name = one_letter ? word.substr(0, 2) : word;
+            const CLI::Option* const option = option_of(*command, name);
             if (option == nullptr) {
-                return unknown_option(*command, word);
+                return unknown_option(*command, name);
             }
-            const bool takes_next =
-                option->get_items_expected_min() > 0 && word.find('=') == std::string::npos;
-            i += takes_next ? 1 : 0;
+            const bool has_value = one_letter ? word.size() > 2 : word.find('=') != std::string::npos;
+            i += option->get_items_expected_min() > 0 && !has_value ? 1 : 0;
         } else if (word.starts_with('-') || commands_of(*command).empty()) {
             continue;  // the library's own business
         } else if (const CLI::App* const sub = find_command(*command, word); sub != nullptr) {
@@ -176,8 +225,14 @@ std::vector<DeclaredOption> declared_options(const CLI::App& command) {
         out.push_back(describe(*option));
     }
     for (const CLI::App* group : children(command, false)) {
-        const std::vector<DeclaredOption> more = declared_options(*group);
-        out.insert(out.end(), more.begin(), more.end());
+        for (DeclaredOption& option : declared_options(*group)) {  // each group has a --help of its own
+            const bool again = std::any_of(out.begin(), out.end(), [&option](const DeclaredOption& known) {
+                return !option.names.empty() && known.names == option.names;
+            });
+            if (!again) {
+                out.push_back(std::move(option));
+            }
+        }
     }
     return out;
 }
@@ -195,7 +250,7 @@ std::string wrong_use(const CLI::App& app, const std::string& what) {
         command = parsed.front();
         path += " " + command->get_name();
     }
-    std::string text = path + ": " + what;
+    std::string text = path + ": " + plainly(what);
     if (const auto below = commands_of(*command); what == "A subcommand is required" && !below.empty()) {
         std::vector<std::string> known;
         for (const CLI::App* sub : below) {

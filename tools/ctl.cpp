@@ -16,6 +16,8 @@
 #include "emulator/link/output_file.h"
 #include "tools/control_client.h"
 #include "tools/ctl_text.h"
+#include "tools/file_roles.h"
+#include "tools/option_values.h"
 #include "tools/report.h"
 
 namespace fauxboard::tools {
@@ -155,6 +157,9 @@ ExitCode watch(const Ctl& ctl, ControlClient& client) {
 
 ExitCode ctl_main(const Ctl& ctl) {
     try {
+        FileRoles roles;
+        roles.talks("the control channel", ctl.path);
+        roles.writes("the picture", ctl.picture);
         // What is watched may be silent for hours, and time that jumps takes as long as it takes.
         const bool patient = ctl.raw || !ctl.subscriptions.empty() ||
                              ctl.request.value("op", "") == "advance" ||
@@ -167,6 +172,8 @@ ExitCode ctl_main(const Ctl& ctl) {
         return ctl.subscriptions.empty() ? one_request(ctl, client) : watch(ctl, client);
     } catch (const link::LinkError& error) {
         return complain("ctl", ExitCode::no_port, error.what());
+    } catch (const link::HostError& error) {
+        return complain("ctl", ExitCode::bad_input, error.what());
     }
 }
 
@@ -359,6 +366,7 @@ void add_display(CLI::App& to, Ctl& ctl) {
     add(to, "screenshot", "Writes what the board's screen shows to a picture",
         [&ctl] { ctl.request["op"] = "screenshot"; })
         ->add_option("FILE", ctl.picture, "FILE.png")
+        ->type_name("FILE.png")
         ->required();
 }
 
@@ -404,11 +412,13 @@ void add_ctl(CLI::App& app, ExitCode& exit) {
     CLI::App* command = app.add_subcommand("ctl", "Reach into a board that runs with --control");
     const auto ctl = std::make_shared<Ctl>();
     command->require_subcommand(1);
-    command->add_option("PATH", ctl->path, "The socket, as given to `run --control`")->required();
+    command->add_option("PATH", ctl->path, "The socket, as given to `run --control`")
+        ->type_name("PATH")
+        ->required();
     command->add_flag("--json", ctl->json, "Print answers and events as they are: JSON lines");
     command->add_option("--timeout", ctl->timeout_ms, "How long to wait for an answer, ms")
         ->type_name("MS")
-        ->check(CLI::Range(1, 86'400'000))
+        ->check(whole_between(1, 86'400'000))
         ->capture_default_str();
     add_values(*command, *ctl);
     add_doing(*command, *ctl);

@@ -25,14 +25,20 @@ std::string unit_of(const std::string& path) {
     return field == nullptr || field->unit.empty() ? "" : " " + std::string(field->unit);
 }
 
+/// Without those that other kinds of machines have, unless only such were asked for.
 std::string fields_text(const Json& fields) {
+    const bool none = std::all_of(fields.begin(), fields.end(), [](const Json& v) { return v.is_null(); });
     std::size_t width = 0;
     for (const auto& [path, value] : fields.items()) {
-        width = std::max(width, path.size());
+        width = std::max(width, none || !value.is_null() ? path.size() : 0);
     }
     std::string out;
     for (const auto& [path, value] : fields.items()) {
-        out += fmt::format("{:<{}}  {}{}\n", path, width, value_text(value), unit_of(path));
+        if (value.is_null()) {
+            out += none ? fmt::format("{:<{}}  none: this board has no such thing\n", path, width) : "";
+        } else {
+            out += fmt::format("{:<{}}  {}{}\n", path, width, value_text(value), unit_of(path));
+        }
     }
     return out;
 }

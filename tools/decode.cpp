@@ -17,7 +17,6 @@
 #include <utility>
 #include <vector>
 
-#include "emulator/behaviour/own_words.h"
 #include "emulator/host/profile_files.h"
 #include "emulator/host/screen_files.h"
 #include "emulator/link/host_error.h"
@@ -26,6 +25,7 @@
 #include "emulator/record/transcript_words.h"
 #include "tools/batch.h"
 #include "tools/decode_spi.h"
+#include "tools/profile_words.h"
 #include "tools/report.h"
 
 namespace fauxboard::tools {
@@ -100,7 +100,7 @@ void add_own_words(const behaviour::Profile& profile, record::JudgedLine& line) 
     if (!line.decoded) {
         return;
     }
-    line.own = behaviour::own_words(profile, *line.decoded);
+    line.own = profile_words(profile, behaviour::Channel::main, *line.decoded);
     if (!line.own.empty()) {
         std::erase_if(line.marks,
                       [](const record::LineMark& mark) { return mark.kind.starts_with("unknown"); });
@@ -168,18 +168,14 @@ ExitCode decode(const DecodeOptions& options) {
 void add_decode(CLI::App& app, ExitCode& exit) {
     CLI::App* command = app.add_subcommand("decode", "Say in words what each line of a recording means");
     const auto options = std::make_shared<DecodeOptions>();
-    command->add_option("FILE", options->files, "Recordings; none or '-': standard input");
+    command->add_option("FILE", options->files, "Recordings; none or '-': standard input")->type_name("FILE");
     command
         ->add_option(
             "--screen", options->screen,
             "Judge the board's lines as this screen would take them: a name of `fauxboard profiles`, or "
             "a file")
         ->type_name("NAME|FILE");
-    command
-        ->add_option("--profile", options->profile,
-                     "Use the words that this profile has for codes of its own: a name of `fauxboard "
-                     "profiles`, or a file")
-        ->type_name("NAME|FILE");
+    add_words_of(*command, options->profile);
     command->add_flag("--json", options->json, "One JSON object a line; timed ones are a recording again");
     command->footer(legend);
     command->callback([options, &exit] { exit = decode(*options); });

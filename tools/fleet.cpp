@@ -16,6 +16,7 @@
 #include "emulator/panel/panel.h"
 #include "tools/board_unit.h"
 #include "tools/commands.h"
+#include "tools/file_roles.h"
 #include "tools/fleet_file.h"
 #include "tools/option_values.h"
 #include "tools/ready_line.h"
@@ -67,21 +68,24 @@ class FleetRun {
           fleet_(std::move(fleet)),
           out_(STDOUT_FILENO),
           err_(STDERR_FILENO),
-          signals_(loop_, link::ending_signals(), [this](int) { loop_.stop(); }) {
-        if (arguments.log.wanted()) {
-            log_file_.emplace(arguments.log.for_file(),
-                              [this](std::string_view text) { err_.write(std::string(text) + "\n"); });
-        }
-    }
+          signals_(loop_, link::ending_signals(), [this](int) { loop_.stop(); }) {}
 
     ExitCode operator()() {
+        load_profiles();
+        check_files();
+        if (arguments_.log.wanted()) {
+            log_file_.emplace(arguments_.log.for_file(),
+                              [this](std::string_view text) { err_.write(std::string(text) + "\n"); });
+        }
         for (FleetBoard& board : fleet_.boards) {
             add(board);
         }
         if (arguments_.web) {
             std::vector<panel::Panel::Shown> shown;
             for (std::size_t i = 0; i < members_.size(); ++i) {
-                shown.push_back({fleet_.boards[i].name, *members_[i]->unit.target()});
+                BoardUnit& unit = members_[i]->unit;
+                shown.push_back({fleet_.boards[i].name, *unit.target(),
+                                 [&unit](const std::string& text) { unit.say(board::Level::debug, text); }});
             }
             panel_.emplace(loop_, *arguments_.web, std::move(shown));
         }
@@ -128,13 +132,32 @@ class FleetRun {
         BoardUnit unit;
     };
 
+    void load_profiles() {
+        for (const FleetBoard& board : fleet_.boards) {
+            auto& profile = profiles_[board.options.profile];
+            if (!profile) {
+                profile = host::load_profile_by_name(board.options.profile);
+            }
+        }
+    }
+
+    /// Before anything is opened: that may empty a file.
+    void check_files() const {
+        FileRoles roles;
+        roles.reads("the fleet's file", arguments_.file);
+        for (const auto& [name, profile] : profiles_) {
+            roles.reads("the profile", profile->files);
+        }
+        roles.add_log(arguments_.log);
+        for (const FleetBoard& board : fleet_.boards) {
+            roles.add_board(board.options, " of " + board.name);
+        }
+    }
+
     void add(FleetBoard& board) {
         board.options.speed = arguments_.speed;
-        auto& profile = profiles_[board.options.profile];
-        if (!profile) {
-            profile = host::load_profile_by_name(board.options.profile);
-        }
-        Member& member = *members_.emplace_back(std::make_unique<Member>(*this, board, profile));
+        Member& member = *members_.emplace_back(
+            std::make_unique<Member>(*this, board, profiles_.at(board.options.profile)));
         member.unit.set_up();
         if (arguments_.web || !board.options.control.empty()) {
             member.unit.open_target([this] { loop_.stop(); });
@@ -209,7 +232,7 @@ void add_fleet(CLI::App& app, ExitCode& exit) {
         app.add_subcommand("fleet", "Be many boards in one process, each on lines of its own");
     const auto arguments = std::make_shared<FleetArguments>();
     command
-        ->add_option("file", arguments->file,
+        ->add_option("FILE", arguments->file,
                      "The boards, as JSON: {\"boards\": [{\"profile\": ..., \"count\": 20}]}")
         ->type_name("FILE.json")
         ->required();

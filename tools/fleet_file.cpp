@@ -179,7 +179,7 @@ Fleet read_fleet(const std::string& file) {
     if (!source) {
         behaviour::Problem problem;
         problem.file = file;
-        problem.message = "no such file, or it cannot be read, or it is larger than 4 MiB";
+        problem.message = "there is no such file";
         throw behaviour::ProfileError({problem});
     }
     return read_fleet(*source);

@@ -6,6 +6,18 @@
 
 namespace fauxboard::tools {
 
+std::string HelpFormatter::make_usage(const CLI::App* command, std::string) const {
+    std::string path = command->get_name();
+    for (const CLI::App* above = command->get_parent(); above != nullptr; above = above->get_parent()) {
+        std::string words = above->get_name();
+        for (const DeclaredOption& option : declared_options(*above)) {
+            words += option.names.empty() && option.required ? " " + option.positional : "";
+        }
+        path = words + " " + path;
+    }
+    return Formatter::make_usage(command, path);
+}
+
 std::string HelpFormatter::make_option_name(const CLI::Option* option, bool is_positional) const {
     if (is_positional) {
         return option->get_name(true);

@@ -9,6 +9,8 @@ namespace fauxboard::tools {
 /// valid behind a type that names them already.
 class HelpFormatter : public CLI::Formatter {
   public:
+    /// With what the commands above it want before its name: `fauxboard ctl PATH get`.
+    std::string make_usage(const CLI::App* command, std::string name) const override;
     std::string make_option_name(const CLI::Option* option, bool is_positional) const override;
     std::string make_option_opts(const CLI::Option* option) const override;
 };

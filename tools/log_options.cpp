@@ -9,6 +9,7 @@
 #include "emulator/behaviour/nearest.h"
 #include "emulator/behaviour/profile.h"
 #include "emulator/host/program_log.h"
+#include "tools/option_values.h"
 #include "tools/run_options.h"
 #include "tools/version.h"
 
@@ -35,6 +36,17 @@ host::LogLevel read_level(const std::string& text) {
                                    nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest)));
 }
 
+std::uint64_t read_size(const std::string& text) {
+    const auto bytes = parse_size(text);
+    if (!bytes || *bytes < least_bytes) {
+        throw CLI::ValidationError(
+            "--log-size", fmt::format("'{}' is no size for a log; expected bytes, or such as 64k, 10M, 1G, "
+                                      "and no less than {}",
+                                      text, least_bytes));
+    }
+    return *bytes;
+}
+
 }  // namespace
 
 host::LogFile::Options LogOptions::for_file() const {
@@ -45,29 +57,23 @@ void add_log(CLI::App& command, LogOptions& options) {
     command
         .add_option_function<std::string>(
             "--log-level", [&options](const std::string& text) { options.level = read_level(text); },
-            "What the program tells of its own doings, apart from the talk: trace, debug, info, warning, "
-            "error "
-            "or off; in --log-file (default: info), else on stderr (default: as -q and -v say)")
-        ->type_name("LEVEL");
+            "What the program tells of its own doings, apart from the talk; in --log-file (default: info), "
+            "else on stderr (default: as -q and -v say)")
+        ->type_name("trace|debug|info|warning|error|off");
     CLI::Option* const file =
         command
             .add_option("--log-file", options.file,
                         "Keep a log of them in a file, older ones as FILE.1, FILE.2, ...")
             ->type_name("FILE");
     command
-        .add_option("--log-size", options.most_bytes,
-                    "A log file is followed by the next at this size (default: 10M)")
+        .add_option_function<std::string>(
+            "--log-size", [&options](const std::string& text) { options.most_bytes = read_size(text); },
+            "A log file is followed by the next at this size (default: 10M)")
         ->type_name("SIZE")
-        ->transform(CLI::AsSizeValue(false))
-        ->check([](const std::string& text) {
-            return std::stoull(text) >= least_bytes
-                       ? std::string()
-                       : fmt::format("{} bytes are too few for a log; at least {}", text, least_bytes);
-        })
         ->needs(file);
     command.add_option("--log-files", options.files, "So many log files at most (default: 5)")
         ->type_name("N")
-        ->check(CLI::Range(1U, most_files))
+        ->check(whole_between(1, most_files))
         ->needs(file);
     command.add_flag("--log-json", options.json, "The log file as JSON lines")->needs(file);
 }

@@ -10,7 +10,6 @@
 #include <csignal>
 #include <cstdlib>
 #include <exception>
-#include <filesystem>
 #include <memory>
 #include <new>
 #include <sstream>
@@ -66,11 +65,10 @@ void fill_standard_descriptors() {
     }
 }
 
-/// A folder that is not there helps nobody, and whoever named it should know.
+/// A folder that is not there, or empty, helps nobody, and whoever named it should know.
 void warn_of_profile_folders() {
-    for (const std::filesystem::path& folder : host::missing_profile_folders()) {
-        complain({}, ExitCode::ok,
-                 "FAUXBOARD_PROFILES names " + folder.string() + ", which is no folder; it is passed over");
+    for (const std::string& useless : host::useless_profile_folders()) {
+        complain({}, ExitCode::ok, "FAUXBOARD_PROFILES names " + useless);
     }
 }
 

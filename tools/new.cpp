@@ -143,10 +143,11 @@ void add_new(CLI::App& app, ExitCode& exit) {
         "new", "A small profile, screen or scenario to start from, as NAME.json in this folder");
     const auto kind = std::make_shared<std::string>();
     const auto name = std::make_shared<std::string>();
-    command->add_option("kind", *kind, "profile, screen or scenario")
+    command->add_option("KIND", *kind, "profile, screen or scenario")
+        ->type_name("profile|screen|scenario")
         ->required()
         ->check(one_of({"profile", "screen", "scenario"}));
-    command->add_option("name", *name, "What it is called")->required()->check(wrong_name);
+    command->add_option("NAME", *name, "What it is called")->required()->check(wrong_name);
     command->callback([kind, name, &exit] { exit = create(*kind, *name); });
 }
 

@@ -7,14 +7,59 @@
 #include <CLI/Validators.hpp>
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <utility>
 
 #include "emulator/behaviour/nearest.h"
-
 #include "emulator/link/host_port.h"
 #include "emulator/link/link.h"
 
 namespace fauxboard::tools {
+namespace {
+
+/// All of `text` as a number; nothing when it is none.
+template <class Number>
+std::optional<Number> whole_text(std::string_view text) {
+    Number number{};
+    const char* const end = text.data() + text.size();
+    const auto read = std::from_chars(text.data(), end, number);
+    return read.ec == std::errc{} && read.ptr == end ? std::optional(number) : std::nullopt;
+}
+
+template <class Number>
+CLI::Validator between(std::string_view kind, std::int64_t least, std::int64_t most) {
+    return {[=](const std::string& text) {
+                const auto number = whole_text<Number>(text);
+                const bool fits =
+                    number && *number >= static_cast<Number>(least) && *number <= static_cast<Number>(most);
+                return fits ? std::string()
+                            : fmt::format("'{}' is no {} from {} to {}", text, kind, least, most);
+            },
+            "", ""};
+}
+
+}  // namespace
+
+CLI::Validator whole_between(std::int64_t least, std::int64_t most) {
+    return between<std::int64_t>("whole number", least, most);
+}
+
+CLI::Validator number_between(std::int64_t least, std::int64_t most) {
+    return between<double>("number", least, most);
+}
+
+std::optional<std::uint64_t> parse_size(std::string_view text) {
+    constexpr std::string_view units = "kmgt";
+    unsigned shift = 0;
+    if (!text.empty()) {
+        const auto unit = units.find(static_cast<char>(text.back() | ' '));
+        shift = unit == std::string_view::npos ? 0 : static_cast<unsigned>(unit + 1) * 10;
+        text.remove_suffix(shift == 0 ? 0 : 1);
+    }
+    const auto number = whole_text<std::uint64_t>(text);
+    const bool fits = number && *number <= std::numeric_limits<std::uint64_t>::max() >> shift;
+    return fits ? std::optional(*number << shift) : std::nullopt;
+}
 
 void add_duration(CLI::App& command, machine::SimTime& duration, const std::string& help) {
     command
@@ -54,7 +99,13 @@ void add_speed(CLI::App& command, host::Speed& speed, bool may_jump) {
 void add_web(CLI::App& command, std::optional<std::string>& web) {
     command
         .add_option_function<std::string>(
-            "--web", [&web](const std::string& where) { web = where.empty() ? "127.0.0.1:0" : where; },
+            "--web",
+            [&web](const std::string& where) {
+                web = where.empty() ? "127.0.0.1:0" : where;
+                if (const std::string wrong = wrong_address(web->substr(0, web->find('/'))); !wrong.empty()) {
+                    throw CLI::ValidationError("--web", wrong);
+                }
+            },
             "Show it in a browser; the address is told. For this computer alone, on a free port and with a "
             "new secret "
             "in the address, unless you say otherwise")
@@ -68,12 +119,12 @@ void add_seed(CLI::App& command, std::uint64_t& seed, const std::string& help) {
         .add_option_function<std::string>(
             "--seed",
             [&seed](const std::string& text) {
-                const char* const end = text.data() + text.size();
-                const auto read = std::from_chars(text.data(), end, seed);
-                if (read.ec != std::errc{} || read.ptr != end) {
+                const auto read = whole_text<std::uint64_t>(text);
+                if (!read) {
                     throw CLI::ValidationError(
                         "--seed", "'" + text + "' is no seed; expected a whole number of up to 64 bits");
                 }
+                seed = *read;
             },
             help + " (default: " + std::to_string(seed) + ")")
         ->type_name("N");
@@ -102,7 +153,7 @@ std::string wrong_address(const std::string& text) {
 }
 
 CLI::Option* add_baud(CLI::App& command, unsigned& baud, const std::string& help) {
-    return command.add_option("--baud", baud, help)->type_name("N")->check(CLI::Range(50U, 4'000'000U));
+    return command.add_option("--baud", baud, help)->type_name("N")->check(whole_between(50, 4'000'000));
 }
 
 }  // namespace fauxboard::tools

@@ -4,8 +4,10 @@
 
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "emulator/host/time_text.h"
@@ -27,6 +29,15 @@ void add_seed(CLI::App& command, std::uint64_t& seed, const std::string& help);
 
 /// What is wrong with HOST:PORT, before anybody tries to open it; empty for nothing.
 std::string wrong_address(const std::string& text);
+
+/// Whole numbers from `least` to `most`.
+CLI::Validator whole_between(std::int64_t least, std::int64_t most);
+
+/// Numbers from `least` to `most`, which are whole themselves.
+CLI::Validator number_between(std::int64_t least, std::int64_t most);
+
+/// "500000", "64k", "10M", "1G": bytes, by 1024. Nothing for anything else, and for what needs over 64 bits.
+std::optional<std::uint64_t> parse_size(std::string_view text);
 
 /// A value that is one of a few: what is wrong with another, and the nearest.
 CLI::Validator one_of(std::vector<std::string> names);

@@ -19,9 +19,13 @@ class PanelFolder final : public host::LiveObserver {
 
     /// Makes the folder, and a fresh panel.jsonl in it. Throws link::HostError.
     PanelFolder(std::string folder, OnTrouble on_trouble);
+    /// The file with a line for each picture.
+    static std::string list_in(const std::string& folder);
     /// Whose panel it is; before the first event.
     void watch(const dlp::Printer& machine) { machine_ = &machine; }
 
+    /// No more comes.
+    void finish();
     void on_event(machine::SimTime now, machine::EventId event) override;
     void on_received(machine::SimTime, board::Channel, std::string_view, board::Verdict) override {}
     void on_sent(machine::SimTime, board::Channel, std::string_view) override {}

@@ -16,6 +16,7 @@
 #include "emulator/record/compare.h"
 #include "emulator/record/plot.h"
 #include "tools/batch.h"
+#include "tools/file_roles.h"
 #include "tools/option_values.h"
 #include "tools/progress.h"
 #include "tools/report.h"
@@ -36,18 +37,9 @@ struct ReplayArguments {
 /// More than this much is not held at once, as a comparison must.
 constexpr std::uintmax_t most_compared_bytes = 256UL * 1024 * 1024;
 
-std::ifstream open_recording(const std::string& file) {
-    std::error_code error;
-    std::ifstream in(file, std::ios::binary);
-    if (!in || !std::filesystem::is_regular_file(file, error)) {
-        throw record::RecordingError(file, 0, "no such file, or it cannot be read");
-    }
-    return in;
-}
-
 /// When the recorded board first spoke.
 std::optional<machine::SimTime> first_board_line(const std::string& file) {
-    std::ifstream in = open_recording(file);
+    std::ifstream in = record::open_recording(file);
     record::OrderedRecording recording(record::RecordingReader(in, file));
     while (const auto line = recording.next()) {
         if (line->from == record::RecordedLine::From::board) {
@@ -67,7 +59,7 @@ void print_notice(const record::ReplayNotice& notice) {
 /// Line by line, however long the recording is.
 ExitCode play(const ReplayArguments& arguments, const std::shared_ptr<const behaviour::Profile>& profile,
               const record::ReplayOptions& options) {
-    std::ifstream in = open_recording(arguments.capture);
+    std::ifstream in = record::open_recording(arguments.capture);
     record::OrderedRecording recording(record::RecordingReader(in, arguments.capture));
     Batch out;
     record::ReplayTalk talk;
@@ -115,6 +107,10 @@ ExitCode compare(const ReplayArguments& arguments, const std::shared_ptr<const b
 
 ExitCode replay(const ReplayArguments& arguments) {
     const auto profile = host::load_profile_by_name(arguments.profile);
+    FileRoles roles;
+    roles.reads("the profile", profile->files);
+    roles.reads("the recording", arguments.capture);
+    roles.writes("the picture", arguments.plot);
     record::ReplayOptions options = arguments.options;
     std::optional<host::FolderCard> card;
     if (!arguments.sd.empty()) {
@@ -146,11 +142,16 @@ void add_replay(CLI::App& app, ExitCode& exit) {
         "Put a recorded screen's requests to a board in virtual time; its lines come out on stdout");
     const auto arguments = std::make_shared<ReplayArguments>();
     command->add_option("--profile", arguments->profile, "The board: a name (see `profiles`) or a file")
+        ->type_name("NAME|FILE")
         ->capture_default_str();
     add_seed(*command, arguments->options.seed, "Start of the random sequence");
-    command->add_option("--sd", arguments->sd,
-                        "Folder that is the board's SD card or stick, to be read and written");
-    command->add_option("capture", arguments->capture, "The recording, JSON lines")->required();
+    command
+        ->add_option("--sd", arguments->sd,
+                     "Folder that is the board's SD card or stick, to be read and written")
+        ->type_name("DIR");
+    command->add_option("CAPTURE", arguments->capture, "The recording, JSON lines")
+        ->type_name("FILE")
+        ->required();
     CLI::Option* compare = command->add_flag(
         "--compare", arguments->compare,
         "Report instead how our lines differ from the recorded board's; exit code 1 when too much");

@@ -12,7 +12,6 @@
 #include <system_error>
 #include <vector>
 
-#include "emulator/behaviour/own_words.h"
 #include "emulator/fault/printer_fault.h"
 #include "emulator/host/json_log.h"
 #include "emulator/host/line_faults.h"
@@ -27,7 +26,9 @@
 #include "protocol/command.h"
 #include "tools/board_unit.h"
 #include "tools/commands.h"
+#include "tools/file_roles.h"
 #include "tools/profile_changes.h"
+#include "tools/profile_words.h"
 #include "tools/progress.h"
 #include "tools/ready_line.h"
 #include "tools/report.h"
@@ -41,19 +42,6 @@ namespace {
 constexpr double log_lines_per_second = 100;
 
 constexpr std::chrono::milliseconds progress_pause{200};
-
-/// What the profile says of a line; that it knows it, where it has rules for what no table has.
-std::string own_words(const behaviour::Profile& profile, board::Channel channel,
-                      const protocol::DecodedLine& line) {
-    std::string words = behaviour::own_words(profile, line);
-    if (words.empty() && line.code == nullptr && line.direction == protocol::Direction::to_board) {
-        const auto command = protocol::parse_command(line.code_text);
-        if (command && profile.rules_for(channel, *command) != nullptr) {
-            words = line.code_text + ": the profile's own";
-        }
-    }
-    return words;
-}
 
 /// Everything that one run needs, in the order in which it must come and (backwards) go.
 class Run {
@@ -79,6 +67,7 @@ class Run {
         return speed.max ? 0 : log_lines_per_second / speed.factor;
     }
     void set_up();
+    void check_files() const;
     void open_log();
     void open_script();
     ExitCode outcome();
@@ -111,10 +100,25 @@ class Run {
     ProfileChanges changes_{options_.profile};
 };
 
+/// Before anything is opened: that may empty a file.
+void Run::check_files() const {
+    FileRoles roles;
+    roles.reads("the profile", unit_.profile()->files);
+    if (scenario_) {
+        roles.reads("the scenario", scenario_->files);
+    }
+    if (scenario_ && scenario_->cast.screen) {
+        roles.reads("the screen", scenario_->cast.screen->files);
+    }
+    roles.add_log(options_.log);
+    roles.add_board(options_);
+}
+
 void Run::set_up() {
+    check_files();
     log_.call_peer(unit_.profile()->line.peer);
     const auto own = [this](board::Channel channel, const protocol::DecodedLine& line) {
-        return own_words(*unit_.profile(), channel, line);
+        return profile_words(*unit_.profile(), channel, line);
     };
     log_.ask(own);
     json_.ask(own);
@@ -258,7 +262,9 @@ ExitCode Run::operator()() {
     unit_.open();
     if (options_.web) {
         panel_.emplace(loop_, *options_.web,
-                       std::vector{panel::Panel::Shown{unit_.profile()->name, *unit_.target()}});
+                       std::vector{panel::Panel::Shown{
+                           unit_.profile()->name, *unit_.target(),
+                           [this](const std::string& text) { unit_.say(board::Level::debug, text); }}});
     }
     say_ready();
     unit_.warn_of_network(panel_ ? panel_->address() : std::string());
@@ -285,6 +291,9 @@ ExitCode Run::operator()() {
     }
     panel_.reset();
     unit_.close();
+    if (recorder_) {
+        recorder_->finish(unit_.live().now());
+    }
     log_.finish(unit_.live().now());
     const std::string summary = unit_.summary();
     err_.write(summary);

@@ -96,7 +96,7 @@ void declare_host_line(CLI::App& command, RunOptions& options) {
     port->excludes(tcp);
     command.add_option("--host-baud", options.host.baud, "Bits per second of --host-port")
         ->type_name("N")
-        ->check(CLI::Range(50U, 4'000'000U))
+        ->check(whole_between(50, 4'000'000))
         ->capture_default_str()
         ->needs(port);
 }

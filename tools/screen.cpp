@@ -30,7 +30,7 @@ CLI::App* add(CLI::App& screen, ScreenOptions& options, ExitCode& exit, const ch
     CLI::App* command = screen.add_subcommand(name, help);
     command->fallthrough();
     command->callback([&options, &exit, body, own] {
-        exit = guard_screen([&] { return options.control.empty() ? body(options) : own(options); });
+        exit = guard_screen(options, [&] { return options.control.empty() ? body(options) : own(options); });
     });
     return command;
 }

@@ -84,6 +84,8 @@ class OwnInteractive {
 
     ControlScreen& screen_;
     link::EventLoop loop_;
+    link::Signals signals_{loop_, link::ending_signals(),
+                           [this](int) { loop_.stop(); }};  // before ncurses does
     screen::Console console_;
     Json page_;
     bool changed_ = true;

@@ -47,13 +47,23 @@ std::string objection(const screen::ScreenProfile& profile, const std::vector<st
     return {};
 }
 
+/// A command that no table has is one of the screen's own buttons.
+std::string own_words(board::Channel, const protocol::DecodedLine& line) {
+    const bool own = line.code == nullptr && line.direction == protocol::Direction::to_board;
+    return own && !line.code_text.empty() ? line.code_text + ": the screen's own" : std::string();
+}
+
 class Press final : public ScreenWalk {
   public:
     explicit Press(ScreenSession& session) : ScreenWalk(session), out_(STDOUT_FILENO, wait) {
         if (session.options().json) {
-            log_ = std::make_unique<host::JsonLog>(out_);
+            auto log = std::make_unique<host::JsonLog>(out_);
+            log->ask(own_words);
+            log_ = std::move(log);
         } else {
-            log_ = std::make_unique<host::LineLog>(out_, host::Detail::verbose, 0);
+            auto log = std::make_unique<host::LineLog>(out_, host::Detail::verbose, 0);
+            log->ask(own_words);
+            log_ = std::move(log);
         }
         if (session.options().verbose) {
             session.observe(*log_);

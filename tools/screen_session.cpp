@@ -7,6 +7,7 @@
 #include "emulator/host/screen_files.h"
 #include "emulator/link/host_error.h"
 #include "emulator/link/ports.h"
+#include "tools/file_roles.h"
 #include "tools/patience.h"
 #include "tools/report.h"
 
@@ -15,6 +16,19 @@ namespace {
 
 /// Of real time: what a busy computer may be late with a reply.
 constexpr double late_s = 1;
+
+/// Before anything is opened: that may empty a file.
+void check_files(const ScreenOptions& options) {
+    FileRoles roles;
+    if (options.control.empty()) {
+        roles.reads("the screen", host::load_screen_by_name(options.screen)->files);
+    }
+    roles.talks("the line", options.port == "auto" ? std::string() : options.port);
+    roles.writes("the control channel", options.control);
+    roles.writes("the recording", options.record);
+    roles.writes("the JUnit report", options.junit);
+    roles.writes("the picture", options.png);
+}
 
 }  // namespace
 
@@ -50,6 +64,9 @@ ExitCode ScreenSession::run(host::ScreenUser& user) {
     live_->start();
     clock_->run();
     link_->close();
+    if (recorder_) {
+        recorder_->finish(clock_->now());
+    }
     return result_;
 }
 
@@ -79,8 +96,9 @@ std::string ScreenSession::silence_sentence() const {
         link_->describe(), machine::to_seconds(options_.timeout), options_.baud);
 }
 
-ExitCode guard_screen(const std::function<ExitCode()>& body) {
+ExitCode guard_screen(const ScreenOptions& options, const std::function<ExitCode()>& body) {
     try {
+        check_files(options);
         return body();
     } catch (const behaviour::ProfileError& error) {
         return complain("screen", ExitCode::bad_input, error.what());

@@ -64,6 +64,6 @@ class ScreenSession {
 };
 
 /// Runs `body` and turns what it throws into a sentence and an exit code.
-ExitCode guard_screen(const std::function<ExitCode()>& body);
+ExitCode guard_screen(const ScreenOptions& options, const std::function<ExitCode()>& body);
 
 }  // namespace fauxboard::tools

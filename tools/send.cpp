@@ -15,12 +15,14 @@
 #include "emulator/host/clock.h"
 #include "emulator/host/json_log.h"
 #include "emulator/host/line_log.h"
+#include "emulator/host/profile_files.h"
 #include "emulator/link/event_loop.h"
 #include "emulator/link/link.h"
 #include "emulator/link/ports.h"
 #include "protocol/annotate.h"
 #include "tools/option_values.h"
 #include "tools/patience.h"
+#include "tools/profile_words.h"
 #include "tools/report.h"
 
 namespace fauxboard::tools {
@@ -34,13 +36,19 @@ struct SendOptions {
     unsigned baud = 115200;
     bool bare = false;
     bool json = false;
-    bool all = false;  ///< show what was said before, too
+    std::string profile;  ///< whose words are used; empty: the protocol's alone
+    bool all = false;     ///< show what was said before, too
     unsigned wait_ms = 500;
     std::vector<std::string> commands;
 };
 
 /// What a pseudo-terminal kept for whoever comes is there at once.
 constexpr SimTime settle = std::chrono::milliseconds(60);
+
+/// A board that is just starting says one line a tick: over when it says none for so long, and waited for no
+/// longer than that.
+constexpr SimTime start_pause = std::chrono::milliseconds(120);
+constexpr SimTime longest_start = std::chrono::milliseconds(1500);
 
 /// A line that talks all the time (a printing board's) is quiet never: so many quiet times are enough.
 constexpr int patience = 10;
@@ -74,16 +82,23 @@ std::string objection(const std::string& command) {
 /// Sends the commands over an open link and shows the talk.
 class Talk final : public link::LinkListener {
   public:
-    Talk(const SendOptions& options, link::EventLoop& loop)
+    /// `profile` may be null.
+    Talk(const SendOptions& options, std::shared_ptr<const behaviour::Profile> profile, link::EventLoop& loop)
         : options_(options),
           loop_(loop),
           clock_(host::make_clock(loop, host::Speed{})),
           alarm_(clock_->make_alarm([this] { wake(); })),
-          out_(STDOUT_FILENO, host::TextOutput::WhenFull::wait) {
-        if (options.json) {
-            log_ = std::make_unique<host::JsonLog>(out_);
-        } else {
-            log_ = std::make_unique<host::LineLog>(out_, host::Detail::verbose, 0);
+          out_(STDOUT_FILENO, host::TextOutput::WhenFull::wait),
+          json_(out_),
+          text_(out_, host::Detail::verbose, 0),
+          log_(options.json ? static_cast<host::LiveObserver&>(json_) : text_) {
+        if (profile) {
+            const auto words = [profile = std::move(profile)](board::Channel channel,
+                                                              const protocol::DecodedLine& line) {
+                return profile_words(*profile, channel, line);
+            };
+            json_.ask(words);
+            text_.ask(words);
         }
     }
 
@@ -92,7 +107,7 @@ class Talk final : public link::LinkListener {
         clock_->start();
         link.open(*this);
         quiet_until_ = clock_->now() + settle;
-        limit_ = quiet_until_;
+        limit_ = longest_start;
         alarm_->at(quiet_until_);
         clock_->run();
         link.close();
@@ -105,10 +120,11 @@ class Talk final : public link::LinkListener {
                 ++before_;
                 return;
             }
-            log_->on_sent(clock_->now(), board::Channel::main, line);
+            text_.call_peer(peer_.at(protocol::decode_line(line, protocol::Direction::to_screen)));
+            log_.on_sent(clock_->now(), board::Channel::main, line);
             answered_ = true;
         });
-        quiet_until_ = std::min(clock_->now() + wait(), limit_);
+        quiet_until_ = std::min(clock_->now() + (begun_ ? wait() : start_pause), limit_);
     }
 
     void on_state(link::LinkState state, std::string_view why) override {
@@ -131,9 +147,10 @@ class Talk final : public link::LinkListener {
             return;
         }
         const std::string line = line_of(options_.commands[at_], options_.bare);
+        const std::string_view body = std::string_view(line).substr(0, line.size() - 2);
         const SimTime now = clock_->now();
-        log_->on_received(now, board::Channel::main, std::string_view(line).substr(0, line.size() - 2),
-                          board::Verdict::accepted);
+        text_.call_peer(peer_.at(protocol::decode_line(body, protocol::Direction::to_board)));
+        log_.on_received(now, board::Channel::main, body, board::Verdict::accepted);
         link_->write(line);
         answered_ = false;
         quiet_until_ = now + wait();
@@ -157,9 +174,9 @@ class Talk final : public link::LinkListener {
     /// What was said to nobody in particular, at power-on say, is no answer.
     void begin() {
         if (before_ != 0 && !options_.json) {
-            log_->on_notice(clock_->now(), board::Level::info,
-                            fmt::format("{} line{} that had been said before left out; --all shows them",
-                                        before_, before_ == 1 ? "" : "s"));
+            log_.on_notice(clock_->now(), board::Level::info,
+                           fmt::format("{} line{} that had been said before left out; --all shows them",
+                                       before_, before_ == 1 ? "" : "s"));
         }
         next();
     }
@@ -178,7 +195,10 @@ class Talk final : public link::LinkListener {
     std::unique_ptr<host::Clock> clock_;
     std::unique_ptr<host::Alarm> alarm_;
     host::TextOutput out_;
-    std::unique_ptr<host::LiveObserver> log_;
+    host::JsonLog json_;
+    host::LineLog text_;
+    host::LiveObserver& log_;
+    protocol::PeerName peer_;
     protocol::LineSplitter splitter_;
     link::Link* link_ = nullptr;
     std::size_t at_ = 0;
@@ -207,7 +227,10 @@ ExitCode send(const SendOptions& options) {
         const std::unique_ptr<link::Link> link = options.tcp.empty()
                                                      ? link::make_port_link(loop, port, options.baud)
                                                      : link::make_tcp_connect_link(loop, options.tcp);
-        return Talk(options, loop).run(*link);
+        auto profile = options.profile.empty() ? nullptr : host::load_profile_by_name(options.profile);
+        return Talk(options, std::move(profile), loop).run(*link);
+    } catch (const behaviour::ProfileError& error) {
+        return complain("send", ExitCode::bad_input, error.what());
     } catch (const link::LinkError& error) {
         return complain("send", ExitCode::no_port, error.what());
     }
@@ -230,7 +253,8 @@ void add_send(CLI::App& app, ExitCode& exit) {
     command->add_flag("--bare", options->bare, "Send as it is, without prefix and checksum");
     command->add_option("--wait", options->wait_ms, "Quiet time that ends an answer, in ms (500)")
         ->type_name("MS")
-        ->check(CLI::Range(1U, 3'600'000U));
+        ->check(whole_between(1, 3'600'000));
+    add_words_of(*command, options->profile);
     command->add_flag("--all", options->all, "Show what had been said before the first command, too");
     command->add_flag("--json", options->json, "The talk as JSON lines");
     command->add_option("COMMAND", options->commands, "'M104 S200': framed unless it is already")

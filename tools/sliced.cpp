@@ -14,6 +14,7 @@
 
 #include "emulator/link/host_error.h"
 #include "emulator/sliced/scanlines.h"
+#include "tools/file_roles.h"
 #include "tools/file_source.h"
 #include "tools/option_values.h"
 #include "tools/png_file.h"
@@ -137,6 +138,9 @@ ExitCode sliced(const SlicedOptions& options) {
                                 : "Say what --png is to show: --layer or --preview.");
     }
     try {
+        FileRoles roles;
+        roles.reads("the file", options.file);
+        roles.writes("the picture", options.png);
         const FileSource source(options.file);
         const SlicedFile file = need(options, SlicedFile::open(source));
         picture ? write_picture(options, file, source) : tell(options, file, source);
@@ -153,7 +157,7 @@ void add_sliced(CLI::App& app, ExitCode& exit) {
         "sliced",
         "Tell what is in a sliced file of a resin printer (.ctb, .cbddlp, .photon, .pws, .photons)");
     const auto options = std::make_shared<SlicedOptions>();
-    command->add_option("FILE", options->file, "The file")->required();
+    command->add_option("FILE", options->file, "The file")->type_name("FILE")->required();
     command->add_flag("--json", options->json, "JSON lines: the header, then each layer");
     CLI::Option* layer =
         command->add_option("--layer", options->layer, "This layer's picture; the first is 0")

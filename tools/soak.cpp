@@ -150,7 +150,8 @@ void add_soak(CLI::App& app, ExitCode& exit) {
         "its promises");
     const auto options = std::make_shared<SoakOptions>();
     CLI::Option* profile =
-        command->add_option("PROFILE", options->profile, "A name of `fauxboard profiles`, or a file");
+        command->add_option("PROFILE", options->profile, "A name of `fauxboard profiles`, or a file")
+            ->type_name("NAME|FILE");
     command
         ->add_option("--screen", options->screen,
                      "Who touches it: a screen of `fauxboard profiles`, or a file")
@@ -160,20 +161,26 @@ void add_soak(CLI::App& app, ExitCode& exit) {
                      "Played over and over beside all that happens; its own waits may end in vain")
         ->type_name("NAME|FILE");
     command->add_option("--years", options->years, "Of virtual time, at least")
-        ->check(CLI::Range(0.0, 1e6))
+        ->type_name("N")
+        ->check(number_between(0, 1'000'000))
         ->capture_default_str();
     command
         ->add_option("--seconds", options->seconds,
                      "Of real time, at most; the last world is played to its end")
-        ->check(CLI::Range(0.0, 1e6));
-    command->add_option("--worlds", options->worlds, "How many lives, at most")->check(CLI::PositiveNumber);
+        ->type_name("N")
+        ->check(number_between(0, 1'000'000));
+    command->add_option("--worlds", options->worlds, "How many lives, at most")
+        ->type_name("N")
+        ->check(whole_between(1, 1'000'000'000));
     add_seed(*command, options->seed, "Of the first world; the next has the next");
     command->add_option("--steps", options->steps, "Things that happen in one world")
-        ->check(CLI::Range(1, 1'000'000))
+        ->type_name("N")
+        ->check(whole_between(1, 1'000'000))
         ->capture_default_str();
     command
         ->add_option("--only", options->only,
                      "Play these steps of the one seed alone, as a report names them")
+        ->type_name("N[,N...]")
         ->delimiter(',');
     command->add_flag("--lines", options->lines, "With --only: all that is heard and said")
         ->needs(command->get_option("--only"));

@@ -28,12 +28,24 @@ bool is_host_port(const std::string& where) {
     return std::regex_match(where, form);
 }
 
+bool is_pty(const std::string& where) {
+    return where == "pty" || where.starts_with("pty=");
+}
+
+std::string link_name(const std::string& where) {
+    return where.substr(std::min<std::size_t>(where.size(), 4));
+}
+
 }  // namespace
+
+std::string SpiPort::file_of(const std::string& where) {
+    return is_pty(where) ? link_name(where) : is_host_port(where) ? std::string() : where;
+}
 
 SpiPort::SpiPort(const std::string& where, SimTime start, OnTrouble on_trouble)
     : path_(where), on_trouble_(std::move(on_trouble)) {
-    if (where == "pty" || where.starts_with("pty=")) {
-        stream_ = link::make_direct_pty(where.substr(std::min<std::size_t>(where.size(), 4)));
+    if (is_pty(where)) {
+        stream_ = link::make_direct_pty(link_name(where));
     } else if (is_host_port(where)) {
         stream_ = link::make_direct_tcp(where);
     } else if (where.ends_with(".pcapng")) {
@@ -44,6 +56,21 @@ SpiPort::SpiPort(const std::string& where, SimTime start, OnTrouble on_trouble)
     }
     if (stream_) {
         path_ = stream_->path();
+    }
+}
+
+SpiPort::~SpiPort() {
+    on_trouble_ = [](std::string_view) {};
+    flush();
+}
+
+void SpiPort::finish() {
+    flush();
+    if (capture_) {
+        capture_->finish();
+    }
+    if (const std::string why = file_ ? file_->finish() : std::string(); !why.empty()) {
+        on_trouble_(fmt::format("{} is not whole ({}).", path_, why));
     }
 }
 

@@ -28,14 +28,19 @@ class SpiPort final : public dlp::SpiTap {
 
     /// `start`: real time, since 1970, at which virtual time was 0. Throws link::HostError, link::LinkError.
     SpiPort(const std::string& where, machine::SimTime start, OnTrouble on_trouble);
-    ~SpiPort() override { flush(); }
+    ~SpiPort() override;
     SpiPort(const SpiPort&) = delete;
     SpiPort& operator=(const SpiPort&) = delete;
 
+    /// The file, or the name of the link to a pseudo-terminal, that `where` means; "" for none.
+    static std::string file_of(const std::string& where);
     /// {"link": "file", "path": ...}
     nlohmann::ordered_json ready() const;
     /// Where it listens for TCP; "" when it does not.
     std::string network_path() const;
+
+    /// The records that wait are handed on, and trouble with that is told: later nobody is there to be told.
+    void finish();
 
     void transfer(dlp::SimTime now, dlp::ChipSelect chip, std::span<const std::uint8_t> out,
                   std::span<std::uint8_t> in) override;

@@ -25,6 +25,7 @@
 #include "emulator/link/event_loop.h"
 #include "emulator/link/host_error.h"
 #include "emulator/record/pcapng.h"
+#include "tools/file_roles.h"
 #include "tools/option_values.h"
 #include "tools/report.h"
 
@@ -72,6 +73,7 @@ class TapRun final : public host::TapObserver {
 
   private:
     void set_up();
+    void check_files() const;
     void add_faults();
     bool screen_is_b() const { return options_.board == TapSide::a; }
     void arm();
@@ -106,10 +108,26 @@ class TapRun final : public host::TapObserver {
     std::uint64_t reported_ = 0;  ///< TapDelay::count() then
 };
 
+/// Before anything is opened: that may empty a file.
+void TapRun::check_files() const {
+    using Kind = host::TapEnd::Kind;
+    FileRoles roles;
+    for (const host::TapEnd& end : ends_) {
+        if (end.kind == Kind::port && end.name != "auto") {
+            roles.talks("an end", end.name);
+        } else if (end.kind == Kind::pty) {
+            roles.writes("the link to an end", end.name);
+        }
+    }
+    roles.writes("the recording", options_.record);
+    roles.writes("the capture", options_.pcapng);
+}
+
 void TapRun::set_up() {
     if (ends_[0] == ends_[1] && !ends_[0].name.empty()) {
         throw link::LinkError(fmt::format("Both ends are {}. Name two.", options_.ends[0]));
     }
+    check_files();
     if (options_.json) {
         lines_.add(json_);
     } else {
@@ -214,6 +232,12 @@ void TapRun::operator()() {
     clock_->run();
     tap_->close();
     talk_->finish();
+    if (recorder_) {
+        recorder_->finish(clock_->now());
+    }
+    if (capture_) {
+        capture_->finish();
+    }
     err_.write(fmt::format("After {:.3f} s: {}; {}; {}.\n", machine::to_seconds(clock_->now()),
                            side_text(TapSide::a), side_text(TapSide::b), delay_text()));
     if (faulty_) {
@@ -249,7 +273,7 @@ void declare(CLI::App& command, TapOptions& options) {
         .add_option("ENDS", options.ends,
                     "Two ends, A and B: a device, auto, pty, pty=LINK, tcp:HOST:PORT (connects) or "
                     "tcp-listen:HOST:PORT")
-        ->type_name("A B")
+        ->type_name("DEV DEV")
         ->required()
         ->expected(-1);
     add_baud(command, options.baud, "Bits per second of serial ports")->capture_default_str();
@@ -258,6 +282,7 @@ void declare(CLI::App& command, TapOptions& options) {
             "--board",
             [&options](const std::string& text) { options.board = text == "A" ? TapSide::a : TapSide::b; },
             "Which end is the board (default: as is seen by what is said, else B)")
+        ->type_name("A|B")
         ->check(one_of({"A", "B"}));
     command.add_option("--record", options.record, "Write every line to a recording")->type_name("FILE");
     command.add_option("--pcapng", options.pcapng, "Write a capture for Wireshark")->type_name("FILE");

@@ -58,9 +58,10 @@ void assign(const ActionCall& call, const Scope& scope, const std::vector<Variab
         case SetResult::done:
             break;
         case SetResult::clamped:
-            context.notices.notice(Level::info,
-                                   fmt::format("{}: {} is beyond its bounds; taken as {}", call.field->path,
-                                               shown(value), shown(call.field->get(context.machine))));
+            context.notices.notice(
+                Level::info,
+                fmt::format("{}: {} is beyond what the machine allows; taken as {}", call.field->path,
+                            shown(value), shown(call.field->get(context.machine))));
             break;
         case SetResult::refused:
             context.notices.notice(Level::warning, std::string(call.field->path) + ": value refused");

@@ -44,7 +44,7 @@ auto with_spec(const Call& call, F&& use) {
     }
     throw ControlError(
         ErrorCode::unknown_fault,
-        fmt::format("There is no fault {}; {{\"op\": \"faults.list\"}} lists them.", id.dump()),
+        fmt::format("There is no fault {}; `fauxboard ctl PATH fault list` lists them.", id.dump()),
         id.is_string() ? behaviour::nearest(id.get_ref<const std::string&>(), names) : std::string_view{});
 }
 

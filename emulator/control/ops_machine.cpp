@@ -149,11 +149,10 @@ std::size_t find_frame(const behaviour::Profile& profile, const std::string& nam
         }
         names.push_back(profile.frames[i].name);
     }
-    throw ControlError(ErrorCode::unknown_frame,
-                       fmt::format("The profile has no frame \"{}\"; {{\"op\": \"describe\", \"what\": "
-                                   "\"frames\"}} lists them.",
-                                   name.substr(0, 60)),
-                       behaviour::nearest(name, names));
+    throw ControlError(
+        ErrorCode::unknown_frame,
+        fmt::format("The profile has no frame \"{}\"; it has {}.", name.substr(0, 60), fmt::join(names, " ")),
+        behaviour::nearest(name, names));
 }
 
 std::string wire_bytes(const Json& text, std::size_t most) {

@@ -45,10 +45,12 @@ void EepromCellsFile::make() const {
     std::string name = file_ + ".XXXXXX";
     const link::UniqueFd fd(::mkostemp(name.data(), O_CLOEXEC));
     const std::string fresh(bytes_, '\xFF');
-    if (!fd || ::fchmod(fd.get(), 0644) != 0 || !write_all(fd.get(), fresh, 0) || ::fsync(fd.get()) != 0 ||
-        ::rename(name.c_str(), file_.c_str()) != 0) {
-        const std::string why = last_error();
-        ::unlink(name.c_str());
+    // link() and not rename(): another board may have made its chip meanwhile, and that one stays.
+    const bool good = fd && ::fchmod(fd.get(), 0644) == 0 && write_all(fd.get(), fresh, 0) &&
+                      ::fsync(fd.get()) == 0 && (::link(name.c_str(), file_.c_str()) == 0 || errno == EEXIST);
+    const std::string why = good ? std::string() : last_error();
+    ::unlink(name.c_str());
+    if (!good) {
         refuse(file_, why);
     }
 }

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
@@ -25,7 +26,8 @@ using link::UniqueFd;
 constexpr std::string_view first_line = "fauxboard eeprom 1\n";
 constexpr std::string_view last_line = "checksum ";
 constexpr std::size_t last_line_bytes = last_line.size() + 16 + 1;
-constexpr std::string_view temporary_mark = ".new-";
+/// So that no file of the user's is taken for one that a killed program left.
+constexpr std::string_view temporary_mark = ".fauxboard-new-";
 
 /// FNV-1a, 64 bits: against tearing and editing, not against malice.
 std::uint64_t checksum(std::string_view bytes) {
@@ -70,6 +72,16 @@ int read_all(int fd, std::string& text) {
     return 0;
 }
 
+/// Whether it begins as our files do, or with nothing, as a power cut may leave one.
+bool may_be_ours(int fd) {
+    constexpr std::string_view mark = first_line.substr(0, first_line.size() - 2);  // of any version
+    std::array<char, first_line.size()> begin{};
+    const ssize_t got = ::pread(fd, begin.data(), begin.size(), 0);
+    const std::string_view text(begin.data(), static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+    return mark.starts_with(text) || text.starts_with(mark) ||
+           text.find_first_not_of('\0') == std::string_view::npos;
+}
+
 }  // namespace
 
 std::string eeprom_text(std::string_view image) {
@@ -106,8 +118,15 @@ EepromFile::EepromFile(const std::string& file, OnTrouble on_trouble)
     if (fs::exists(status) && !fs::is_regular_file(status)) {
         throw link::HostError(fmt::format("{} cannot hold the EEPROM: it is no plain file.", file_));
     }
-    if (UniqueFd(::open(file_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)).get() < 0 && errno != ENOENT) {
+    const UniqueFd fd(::open(file_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+    if (!fd && errno != ENOENT) {
         throw link::HostError(fmt::format("The EEPROM {} cannot be read ({}).", file_, error_text(errno)));
+    }
+    if (fd && !may_be_ours(fd.get())) {
+        throw link::HostError(
+            fmt::format("{} cannot hold the EEPROM: what is in it is not fauxboard's. Move it away, or name "
+                        "another file.",
+                        file_));
     }
     sweep();
     std::string name;

@@ -61,11 +61,12 @@ bool LogFile::is_ours(const std::string& path) {
         return true;
     }
     const std::string head = beginning(path, std::max(text_mark.size(), json_mark.size()));
-    return what.st_size == 0 || head.starts_with(text_mark) || head.starts_with(json_mark);
+    return (S_ISREG(what.st_mode) && what.st_size == 0) || head.starts_with(text_mark) ||
+           head.starts_with(json_mark);
 }
 
-std::string LogFile::path_of(unsigned age) const {
-    return age == 0 ? options_.path : fmt::format("{}.{}", options_.path, age);
+std::string LogFile::path_of(const std::string& path, unsigned age) {
+    return age == 0 ? path : fmt::format("{}.{}", path, age);
 }
 
 // O_NONBLOCK: a pipe must have its reader now, and is never waited for. Files do not know it.

@@ -37,10 +37,13 @@ class LogFile {
     static constexpr std::string_view text_mark = "# fauxboard's log";
     static constexpr std::string_view json_mark = "{\"log\": \"fauxboard\"";
 
+    /// Where the log is that is so many files older; 0: the one that is written.
+    static std::string path_of(const std::string& path, unsigned age);
+
   private:
     /// Whether it is not there, empty, or begins as our logs do.
     static bool is_ours(const std::string& path);
-    std::string path_of(unsigned age) const;
+    std::string path_of(unsigned age) const { return path_of(options_.path, age); }
     /// Throws link::HostError.
     void open(int more_flags);
     void begin();

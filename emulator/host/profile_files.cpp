@@ -39,6 +39,16 @@ std::optional<behaviour::SourceText> find(std::string_view name, std::string_vie
     return std::nullopt;
 }
 
+bool has_json(const fs::path& folder) {
+    std::error_code error;
+    for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+        if (at->path().extension() == ".json") {
+            return true;
+        }
+    }
+    return false;
+}
+
 /// The folders of FAUXBOARD_PROFILES, as they are named there.
 std::vector<fs::path> named_folders() {
     std::vector<fs::path> folders;
@@ -72,6 +82,7 @@ std::optional<behaviour::SourceText> read_source(const fs::path& file) {
 std::vector<fs::path> profile_folders() {
     std::vector<fs::path> folders = named_folders();
     std::error_code error;
+    std::erase_if(folders, [&error](const fs::path& folder) { return !fs::is_directory(folder, error); });
     const fs::path program = fs::read_symlink("/proc/self/exe", error);
     const fs::path beside = (program.parent_path() / FAUXBOARD_PROFILES_FROM_PROGRAM).lexically_normal();
     for (const fs::path& folder : {beside, fs::path(FAUXBOARD_SOURCE_PROFILES)}) {
@@ -82,13 +93,17 @@ std::vector<fs::path> profile_folders() {
     return folders;
 }
 
-std::vector<fs::path> missing_profile_folders() {
-    std::vector<fs::path> folders = named_folders();
-    std::erase_if(folders, [](const fs::path& folder) {
+std::vector<std::string> useless_profile_folders() {
+    std::vector<std::string> out;
+    for (const fs::path& folder : named_folders()) {
         std::error_code error;
-        return fs::is_directory(folder, error);
-    });
-    return folders;
+        if (!fs::is_directory(folder, error)) {
+            out.push_back(folder.string() + ", which is no folder; it is passed over");
+        } else if (!has_json(folder) && !has_json(folder / "screens") && !has_json(folder / "scenarios")) {
+            out.push_back(folder.string() + ", which holds no profile, no screens/ and no scenarios/");
+        }
+    }
+    return out;
 }
 
 behaviour::SourceFinder profile_finder() {

@@ -14,8 +14,8 @@ namespace fauxboard::host {
 /// FAUXBOARD_PROFILES (parted by ':'), what was installed with the program (found from where the program
 /// lies, so the installed tree can be moved), the folder it was built from.
 std::vector<std::filesystem::path> profile_folders();
-/// Those that FAUXBOARD_PROFILES names and that are no folders.
-std::vector<std::filesystem::path> missing_profile_folders();
+/// A clause about each that FAUXBOARD_PROFILES names in vain: "DIR, which is no folder; it is passed over".
+std::vector<std::string> useless_profile_folders();
 
 /// The text of a profile, screen, scenario or schema. Nothing where there is no such file. Throws
 /// behaviour::ProfileError for one that cannot be read: what is there and broken is not passed over in favour

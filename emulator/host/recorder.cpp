@@ -62,4 +62,11 @@ void Recorder::write(SimTime now, const std::string& text) {
     }
 }
 
+void Recorder::finish(SimTime now) {
+    const std::string why = out_.finish();
+    if (!why.empty() && on_trouble_) {
+        on_trouble_(now, fmt::format("the recording {} is not whole: {}", file_, why));
+    }
+}
+
 }  // namespace fauxboard::host

@@ -29,6 +29,8 @@ class Recorder final : public LiveObserver {
     void on_fault(SimTime now, std::string_view sentence) override;
     void on_link(SimTime, link::LinkState, std::string_view) override {}
 
+    /// No more comes; what a slow reader has not taken by now it may lose, which is told.
+    void finish(SimTime now);
     std::uint64_t lines() const { return out_.pieces(); }
 
   private:

@@ -291,7 +291,7 @@ Signals::Signals(EventLoop& loop, const std::vector<int>& numbers, std::function
         struct sigaction action {};
         action.sa_handler = &tell_signal;  // no SA_RESTART: what blocks is interrupted
         Before before{number, {}};
-        ::sigaction(number, &action, &before.action);
+        if (::sigaction(number, &action, &before.action) != 0) fail("sigaction");
         before_.push_back(before);
     }
 }

@@ -14,6 +14,8 @@ namespace fauxboard::link {
 class OutputFile {
   public:
     static constexpr std::size_t max_waiting = 1024UL * 1024;
+    /// That a pipe's reader has at least to take the last of it.
+    static constexpr std::chrono::milliseconds end_patience{1000};
 
     /// Creates or empties `file`. Throws HostError, in which `what` says what it is ("The recording
     /// talk.jsonl"): it cannot be written; it is a pipe that nobody reads; another writes it just now.
@@ -26,7 +28,8 @@ class OutputFile {
     /// max_waiting. Empty; or, once, why there is nothing more to be written: a full disk ends the file, not
     /// its owner.
     std::string append(std::string_view piece);
-    /// The end of it: what waits is taken within the patience. Empty, or why it is not whole.
+    /// The end of it: what waits is taken within the patience, or end_patience if that is longer. Empty, or
+    /// why it is not whole.
     std::string finish();
     /// Nothing more is written.
     bool over() const { return !fd_; }
@@ -34,7 +37,6 @@ class OutputFile {
     std::uint64_t pieces() const { return pieces_; }
 
   private:
-    int put(std::string_view bytes, std::size_t& done);
     int catch_up(std::chrono::milliseconds patience);
     std::string give_up(std::string why, std::size_t torn);
 
@@ -44,8 +46,9 @@ class OutputFile {
     std::uint64_t pieces_ = 0;
 };
 
-/// The whole of a file, such as a report or a picture. Throws HostError as OutputFile does, and when there is
-/// no room for all of it: then nothing is left of it.
+/// The whole of a file, such as a report or a picture: it has its name when all of it is there, and a file
+/// that had it before is as it was until then. Throws HostError as OutputFile does, and when there is no
+/// room.
 void write_output(const std::string& file, std::string_view what, std::string_view bytes);
 
 }  // namespace fauxboard::link

@@ -161,4 +161,11 @@ bool PcapngWriter::write(std::string_view block) {
     return why.empty();
 }
 
+void PcapngWriter::finish() {
+    const std::string why = out_.finish();
+    if (!why.empty() && on_trouble_) {
+        on_trouble_(fmt::format("the capture {} is not whole: {}", file_, why));
+    }
+}
+
 }  // namespace fauxboard::record

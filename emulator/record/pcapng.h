@@ -54,6 +54,8 @@ class PcapngWriter {
     void packet(machine::SimTime now, protocol::Direction direction, std::string_view bytes);
     /// A packet that was made already.
     void block(std::string_view packet);
+    /// No more comes; what a slow reader has not taken by now it may lose, which is told.
+    void finish();
     machine::SimTime start() const { return start_; }
     std::uint64_t packets() const { return packets_; }
 

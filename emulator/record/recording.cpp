@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <fstream>
 #include <functional>
 #include <istream>
+#include <system_error>
 
 #include "emulator/behaviour/parse_json.h"
 #include "emulator/behaviour/wire_text.h"
@@ -164,12 +166,26 @@ std::vector<RecordedLine> load_recording(std::istream& in, std::string_view name
     return lines;
 }
 
-std::vector<RecordedLine> load_recording(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
+std::ifstream open_recording(const std::filesystem::path& file) {
     std::error_code error;
-    if (!in || std::filesystem::is_directory(file, error)) {
-        throw RecordingError(file.string(), 0, "no such file, or it cannot be read");
+    const auto kind = std::filesystem::status(file, error).type();
+    if (kind == std::filesystem::file_type::not_found) {
+        throw RecordingError(file.string(), 0, "there is no such file");
     }
+    if (kind != std::filesystem::file_type::regular) {
+        throw RecordingError(file.string(), 0, error ? error.message() : "it is no file");
+    }
+    errno = 0;
+    std::ifstream in(file, std::ios::binary);
+    if (!in) {
+        throw RecordingError(file.string(), 0,
+                             "it cannot be read (" + std::system_category().message(errno) + ")");
+    }
+    return in;
+}
+
+std::vector<RecordedLine> load_recording(const std::filesystem::path& file) {
+    std::ifstream in = open_recording(file);
     return load_recording(in, file.string());
 }
 

@@ -108,6 +108,8 @@ class OrderedRecording {
     bool ended_ = false;
 };
 
+/// Opens a recording, or throws RecordingError that says why not.
+std::ifstream open_recording(const std::filesystem::path& file);
 /// A whole recording, ordered by time (entries of the same time stay in the order of the file). Throws
 /// RecordingError, also when the file cannot be read.
 std::vector<RecordedLine> load_recording(const std::filesystem::path& file);

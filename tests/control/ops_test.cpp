@@ -124,7 +124,8 @@ TEST_CASE("set, do: what the machine does not allow it keeps within its limit, a
     const Json set = client.ask(R"({"op": "set", "fields": {"heaters.nozzle.target": 999}})");
     CHECK(set["ok"] == true);
     CHECK(set["fields"]["heaters.nozzle.target"] == 250.0);
-    CHECK(has(set["notices"][0]["text"], "heaters.nozzle.target: 999 is beyond its bounds; taken as 250"));
+    CHECK(has(set["notices"][0]["text"],
+              "heaters.nozzle.target: 999 is beyond what the machine allows; taken as 250"));
     const Json done = client.ask(R"({"op": "do", "do": {"heater.target": {"heater": "nozzle", "c": 999}}})");
     CHECK(done["ok"] == true);
     CHECK(has(done["notices"][0]["text"], "taken as 250 C"));

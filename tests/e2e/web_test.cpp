@@ -99,9 +99,9 @@ TEST_CASE("what cannot be is refused with a sentence") {
     const std::string file = folder.file("fleet.json");
     std::ofstream(file) << R"({"boards": [{"profile": "geeetech-a30x"}]})";
     const std::vector<Mistake> mistakes{
-        {{"run", "--web", "nonsense"}, no_port, "nonsense"},
+        {{"run", "--web", "nonsense"}, usage, "nonsense"},
         {{"run", "--web", "127.0.0.1:0/short"}, no_port, "12 to 64"},
-        {{"fleet"}, usage, "file"},
+        {{"fleet"}, usage, "FILE"},
         {{"fleet", "/missing.json"}, bad_input, "/missing.json"},
         {{"fleet", file}, bad_input, "did you mean \"geeetech-a30"},
         {{"fleet", file, "--speed", "max"}, usage, "expected a number"},

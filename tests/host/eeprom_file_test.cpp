@@ -73,7 +73,7 @@ TEST_CASE_FIXTURE(Fixture, "an image of any length, cut anywhere or with any byt
 }
 
 TEST_CASE_FIXTURE(Fixture, "a broken file is put aside, and nothing is lost, also the second time") {
-    const std::vector<std::string> broken{"", "hello",
+    const std::vector<std::string> broken{"", "fauxboard",
                                           "fauxboard eeprom 2\na 1\nchecksum 0123456789abcdef\n"};
     for (const std::string& text : broken) {
         write(file, text);
@@ -88,6 +88,22 @@ TEST_CASE_FIXTURE(Fixture, "a broken file is put aside, and nothing is lost, als
     EepromFile eeprom(file, on_trouble);
     CHECK(eeprom.save("x 1\n"));
     CHECK(eeprom.load() == "x 1\n");
+}
+
+TEST_CASE_FIXTURE(Fixture, "what is not ours is refused, and stays where it is") {
+    write(file, "a novel\n");
+    const std::string copy = file + ".new-backup";
+    write(copy, eeprom_text("a 1\n"));
+    CHECK_THROWS_WITH_AS(EepromFile(file, on_trouble), doctest::Contains("is not fauxboard's"),
+                         link::HostError);
+    CHECK(read(file) == "a novel\n");
+    CHECK(read(copy) == eeprom_text("a 1\n"));
+    fs::remove(file);
+    CHECK(EepromFile(file, on_trouble).save("b 2\n"));
+    CHECK(read(copy) == eeprom_text("a 1\n"));
+    write(file, std::string(20, '\0'));  // as a power cut may leave it
+    CHECK_FALSE(EepromFile(file, on_trouble).load());
+    CHECK(read(file + ".broken") == std::string(20, '\0'));
 }
 
 TEST_CASE_FIXTURE(Fixture, "the file's mode and a symlink to it survive saving") {

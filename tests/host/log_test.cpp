@@ -1,9 +1,11 @@
+#include <poll.h>
 #include <sys/ioctl.h>
 #include <sys/stat.h>
 
 #include <csignal>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <thread>
 
 #include "emulator/host/json_log.h"
 #include "emulator/host/line_log.h"
@@ -283,6 +285,39 @@ TEST_CASE("a recording into a pipe needs a reader, and waits for none") {
         recorder.on_sent(SimTime(i), board::Channel::main, "N-0 L1 X0.000 Y0.000 Z0.000 F0*13");
     REQUIRE(troubles.size() == 1);
     CHECK(contains(troubles[0], "who reads the pipe does not keep up"));
+}
+
+TEST_CASE("the end of a recording waits for a pipe's reader, and tells when it is not whole") {
+    const link::test::TemporaryFolder folder;
+    const std::string file = folder.file("pipe");
+    REQUIRE(::mkfifo(file.c_str(), 0600) == 0);
+    const link::UniqueFd reader(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+    std::vector<std::string> troubles;
+    const auto fill = [&](Recorder& recorder) {
+        for (int i = 0; i < 3000; ++i)  // more than the pipe holds
+            recorder.on_sent(SimTime(i), board::Channel::main, "N-0 L1 X0.000 Y0.000 Z0.000 F0*13");
+    };
+    const auto trouble = [&](SimTime, std::string_view text) { troubles.emplace_back(text); };
+    {
+        Recorder recorder(file, trouble);
+        fill(recorder);
+        std::size_t taken = 0;
+        std::thread slow([&] {
+            for (std::size_t more = 1; more != 0; taken += more) {
+                pollfd entry{.fd = reader.get(), .events = POLLIN, .revents = 0};
+                more = ::poll(&entry, 1, 10'000) > 0 ? link::test::take(reader.get()).size() : 0;
+            }
+        });
+        recorder.finish(4s);
+        slow.join();
+        CHECK(troubles.empty());
+        CHECK(taken > 3000 * 60);
+    }
+    Recorder recorder(file, trouble);
+    fill(recorder);
+    recorder.finish(5s);  // whom nobody reads on
+    REQUIRE(troubles.size() == 1);
+    CHECK(contains(troubles[0], "is not whole: who reads the pipe does not keep up"));
 }
 
 TEST_CASE("a password that the line sets is in no log and no recording") {

@@ -63,7 +63,31 @@ TEST_CASE("output: of a whole file for which there is no room nothing is left") 
     const Limit limit(10);
     CHECK_THROWS_WITH_AS(write_output(file, "The report", "more than ten bytes"),
                          doctest::Contains("The report cannot be written (File too large)"), HostError);
-    CHECK_FALSE(std::filesystem::exists(file));
+    CHECK(std::filesystem::is_empty(folder.file("")));
+}
+
+TEST_CASE("output: a whole file has its name when it is whole; what had it before stays until then") {
+    namespace fs = std::filesystem;
+    const TemporaryFolder folder;
+    const std::string file = folder.file("report");
+    write_output(file, "The report", "before");
+    fs::create_symlink("report", folder.file("link"));
+    fs::permissions(file, fs::perms::owner_read | fs::perms::owner_write);
+    {
+        const Limit limit(10);
+        CHECK_THROWS_AS(write_output(file, "The report", "more than ten bytes"), HostError);
+    }
+    CHECK(content(file) == "before");
+    write_output(folder.file("link"), "The report", "after");
+    CHECK(content(file) == "after");
+    CHECK(fs::is_symlink(folder.file("link")));
+    CHECK((fs::status(file).permissions() & fs::perms::others_all) == fs::perms::none);
+    CHECK_THROWS_WITH_AS(write_output(folder.file("none/report"), "It", "x"),
+                         doctest::Contains("No such file"), HostError);
+    const OutputFile other(folder.file("taken"), "It");
+    CHECK_THROWS_WITH_AS(write_output(folder.file("taken"), "It", "x"),
+                         doctest::Contains("is being written by another"), HostError);
+    CHECK(std::distance(fs::directory_iterator(folder.file("")), {}) == 3);
 }
 
 TEST_CASE("output: two do not write one file, but into one device") {

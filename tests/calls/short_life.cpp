@@ -1,4 +1,4 @@
-#include "tests/world/short_life.h"
+#include "tests/calls/short_life.h"
 
 #include <arpa/inet.h>
 #include <fcntl.h>
@@ -24,7 +24,7 @@
 #include "tests/support/dlp_bench.h"
 #include "tests/support/transfer_client.h"
 
-namespace fauxboard::world {
+namespace fauxboard::calls {
 namespace {
 
 namespace fs = std::filesystem;
@@ -49,8 +49,10 @@ constexpr std::string_view play_script = R"({
 })";
 constexpr std::string_view show_script = R"({
   "name": "show", "profile": "mks-dlp",
-  "steps": [ { "wait": { "event": "board.ready" } }, { "do": { "uvtest.image": { "n": 1 } } }, { "wait": "2s" },
-             { "do": "uvtest.leave" }, { "do": { "print.start": { "path": "model.pws" } } }, { "wait": "90s" } ]
+  "steps": [ { "wait": { "event": "board.ready" } }, { "do": { "uvtest.image": { "n": 2 } } },
+             { "do": { "uvtest.display": { "on": true } } }, { "wait": "2s" }, { "do": "uvtest.leave" },
+             { "do": { "print.start": { "path": "model.pws" } } },
+             { "wait": { "event": "print.finished" }, "within": "5min" } ]
 })";
 
 /// {0} is the folder. Who is visited is told to end then, and ends in any case: where no call ever comes back
@@ -73,7 +75,7 @@ std::string fleet_file(const link::test::TemporaryFolder& folder) {
         {"boards",
          {{{"profile", "geeetech-a30t"}, {"tcp", ":0"}, {"eeprom", folder.file("eeprom")}},
           {{"profile", "elegoo-mars-pro"}, {"tcp", ":0"}, {"udp", ":0"}, {"sd", folder.file("sd")}},
-          {{"profile", "mks-dlp"}, {"eeprom", folder.file("cells")}, {"panel", folder.file("shown")}}}}}
+          {{"profile", "mks-dlp"}, {"eeprom", folder.file("cells")}, {"udisk", folder.file("stick")}}}}}
         .dump();
 }
 
@@ -154,7 +156,7 @@ ShortLife::ShortLife(Life life) : life_(life) {
     put(folder_.file("play.json"), play_script);
     put(folder_.file("show.json"), show_script);
     put(folder_.file("fleet.json"), fleet_file(folder_));
-    if (life == Life::shown) {
+    if (life == Life::shown || life == Life::fleet) {
         testing::PanelPws wishes;
         wishes.layers = 1;
         put(folder_.file("stick/model.pws"), testing::make_panel_pws(wishes));
@@ -216,6 +218,7 @@ LifeEnd ShortLife::run(const FailingCall& failing) {
     const ssize_t size = ::pread(errors.get(), end.said.data(), end.said.size(), 0);
     end.said.resize(static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
     end.acknowledged = acknowledged_;
+    end.missing = missing_file();
     end.torn = torn_file();
     return end;
 }
@@ -275,6 +278,19 @@ std::string ShortLife::content(const std::string& name) const {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
+std::string ShortLife::missing_file() const {
+    static constexpr std::array<std::string_view, life_count> made{
+        "eeprom eeprom.job talk.jsonl", "eeprom.job talk.jsonl", "sd/up.ctb talk.jsonl",
+        "cells wires shown/panel.jsonl shown/000002.png", "eeprom.job cells sd/up.ctb"};
+    std::istringstream names{std::string(made[static_cast<std::size_t>(life_)])};
+    for (std::string name; names >> name;) {
+        if (!fs::exists(folder_.file(name))) {
+            return name;
+        }
+    }
+    return {};
+}
+
 std::string ShortLife::torn_file() const {
     if (const std::string eeprom = content("eeprom"); !eeprom.empty() && !host::eeprom_image(eeprom)) {
         return "the EEPROM is broken";
@@ -304,4 +320,4 @@ std::string ShortLife::torn_file() const {
     return {};
 }
 
-}  // namespace fauxboard::world
+}  // namespace fauxboard::calls

@@ -10,7 +10,7 @@
 
 #include "tests/link/helpers.h"
 
-namespace fauxboard::world {
+namespace fauxboard::calls {
 
 enum class Life : std::uint8_t {
     played,    ///< a scenario at once, with every file that a board keeps
@@ -39,6 +39,7 @@ struct LifeEnd {
     bool happened = false;      ///< there was such a call at all
     std::string said;           ///< the beginning of its stderr
     bool acknowledged = false;  ///< the upload, as saved
+    std::string missing;        ///< a file that such a life makes, and did not
     std::string torn;           ///< a file that is neither as it was nor as it is to be, and why
 };
 
@@ -46,6 +47,8 @@ class ShortLife {
   public:
     explicit ShortLife(Life life);
     LifeEnd run(const FailingCall& failing);
+    /// In which all calls do what they are to do.
+    LifeEnd run() { return run({"none", 0, 0, false}); }
 
   private:
     std::vector<std::string> arguments() const;
@@ -53,6 +56,7 @@ class ShortLife {
     /// Whoever comes by while it runs.
     void visit(pid_t pid, int out);
     void upload(const std::string& udp);
+    std::string missing_file() const;
     std::string torn_file() const;
     std::string content(const std::string& name) const;
 
@@ -62,4 +66,4 @@ class ShortLife {
     std::vector<link::UniqueFd> peers_;
 };
 
-}  // namespace fauxboard::world
+}  // namespace fauxboard::calls

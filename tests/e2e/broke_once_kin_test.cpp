@@ -1,4 +1,4 @@
-// The relatives of what people who wanted to break it did (adversary_test.cpp): the same kinds of input, at
+// The relatives of what people who wanted to break it did (broke_once_test.cpp): the same kinds of input, at
 // other commands, files, channels and signals.
 
 #include <fcntl.h>
@@ -47,7 +47,8 @@ TEST_CASE("whatever is written into a pipe that nobody reads is refused, and not
           with(script, "--junit", pipe), Args{"replay", folder.file("talk.jsonl"), "--plot", pipe},
           Args{"sliced", folder.file("model.pws"), "--layer", "0", "--png", pipe},
           Args{"tap", "pty", "pty", "--record", pipe}, Args{"tap", "pty", "pty", "--pcapng", pipe},
-          Args{"screen", "--tcp", ":1", "--record", pipe, "tour", "--junit", pipe}}) {
+          Args{"screen", "--tcp", ":1", "tour", "--junit", pipe},
+          Args{"screen", "--tcp", ":1", "tour", "--record", pipe}}) {
         CAPTURE(args.front());
         CAPTURE(args.back());
         const Result result = run(args);
@@ -103,7 +104,7 @@ TEST_CASE("two who would write one file: the second is told") {
                                        R"("}]})");
     const Result fleet = run({"fleet", folder.file("fleet.json"), "--duration", "1s"});
     CHECK(fleet.code == bad_input);
-    CHECK(contains(fleet.errors, "is in use by a board that runs"));
+    CHECK(contains(fleet.errors, "the EEPROM of a"));
 }
 
 TEST_CASE("any signal that asks to end takes every name with it, from boards, fleets and taps") {

@@ -5,11 +5,17 @@
 //
 // A file of the name FAIL_MARK appears when it has happened, so that whoever counts n up knows when to end.
 
+#include <dirent.h>
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <netdb.h>
+#include <poll.h>
 #include <sys/epoll.h>
 #include <sys/file.h>
 #include <sys/inotify.h>
+#include <sys/ioctl.h>
+#include <sys/random.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/timerfd.h>
@@ -19,6 +25,7 @@
 
 #include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstdarg>
 #include <cstdio>
 #include <cstdlib>
@@ -141,7 +148,53 @@ FAUXBOARD_FAILING(int, fstat, (int fd, struct stat* out), (fd, out), -1)
 FAUXBOARD_FAILING(int, fstatat, (int folder, const char* path, struct stat* out, int flags),
                   (folder, path, out, flags), -1)
 FAUXBOARD_FAILING(int, pipe2, (int* ends, int flags), (ends, flags), -1)
+FAUXBOARD_FAILING(int, poll, (pollfd * entries, nfds_t count, int wait), (entries, count, wait), -1)
+FAUXBOARD_FAILING(int, connect, (int fd, const sockaddr* address, socklen_t size), (fd, address, size), -1)
+FAUXBOARD_FAILING(int, setsockopt, (int fd, int level, int name, const void* value, socklen_t size),
+                  (fd, level, name, value, size), -1)
+FAUXBOARD_FAILING(int, getsockopt, (int fd, int level, int name, void* value, socklen_t* size),
+                  (fd, level, name, value, size), -1)
+FAUXBOARD_FAILING(int, getsockname, (int fd, sockaddr* address, socklen_t* size), (fd, address, size), -1)
+FAUXBOARD_FAILING(int, getpeername, (int fd, sockaddr* address, socklen_t* size), (fd, address, size), -1)
+FAUXBOARD_FAILING(int, getnameinfo,
+                  (const sockaddr* address, socklen_t size, char* host, socklen_t host_size, char* service,
+                   socklen_t service_size, int flags),
+                  (address, size, host, host_size, service, service_size, flags), EAI_FAIL)
+FAUXBOARD_FAILING(int, shutdown, (int fd, int how), (fd, how), -1)
+FAUXBOARD_FAILING(ssize_t, sendmsg, (int fd, const msghdr* message, int flags), (fd, message, flags), -1)
+FAUXBOARD_FAILING(int, ptsname_r, (int fd, char* name, size_t size), (fd, name, size), errno)
+FAUXBOARD_FAILING(int, unlockpt, (int fd), (fd), -1)
+FAUXBOARD_FAILING(int, chmod, (const char* path, mode_t mode), (path, mode), -1)
+FAUXBOARD_FAILING(int, fchmod, (int fd, mode_t mode), (fd, mode), -1)
+FAUXBOARD_FAILING(int, faccessat, (int folder, const char* path, int mode, int flags),
+                  (folder, path, mode, flags), -1)
+FAUXBOARD_FAILING(off_t, lseek, (int fd, off_t to, int from), (fd, to, from), -1)
+FAUXBOARD_FAILING(int, stat, (const char* path, struct stat* out), (path, out), -1)
+FAUXBOARD_FAILING(int, lstat, (const char* path, struct stat* out), (path, out), -1)
+FAUXBOARD_FAILING(ssize_t, readlink, (const char* path, char* out, size_t size), (path, out, size), -1)
+FAUXBOARD_FAILING(int, mkdir, (const char* path, mode_t mode), (path, mode), -1)
+FAUXBOARD_FAILING(int, mkostemp, (char* name, int flags), (name, flags), -1)
+FAUXBOARD_FAILING(DIR*, fdopendir, (int fd), (fd), nullptr)
+FAUXBOARD_FAILING(dirent*, readdir, (DIR * folder), (folder), nullptr)
+FAUXBOARD_FAILING(ssize_t, getrandom, (void* out, size_t size, unsigned flags), (out, size, flags), -1)
+FAUXBOARD_FAILING(int, sigaction, (int number, const struct sigaction* now, struct sigaction* was),
+                  (number, now, was), -1)
+FAUXBOARD_FAILING(int, setrlimit, (__rlimit_resource_t which, const rlimit* to), (which, to), -1)
 FAUXBOARD_FAILING(void*, malloc, (size_t size), (size), nullptr)
+FAUXBOARD_FAILING(void*, realloc, (void* old, size_t size), (old, size), nullptr)
+
+// dlsym() itself asks for memory by this one.
+extern "C" void* __libc_calloc(size_t count, size_t size);
+extern "C" void* calloc(size_t count, size_t size) {
+    return fails("calloc") ? nullptr : __libc_calloc(count, size);
+}
+
+// Whatever it says, the descriptor is gone.
+extern "C" int close(int fd) {
+    static const auto real = next<int (*)(int)>("close");
+    const int result = real(fd);
+    return fails("close") ? -1 : result;
+}
 
 extern "C" int __libc_start_main(Main* program, int argc, char** argv, void (*init)(), void (*fini)(),
                                  void (*linker_fini)(), void* stack) {
@@ -151,7 +204,25 @@ extern "C" int __libc_start_main(Main* program, int argc, char** argv, void (*in
     return real(main_begins, argc, argv, init, fini, linker_fini, stack);
 }
 
-// With one optional argument.
+// With one optional argument, which is handed on as it is.
+extern "C" int ioctl(int fd, unsigned long request, ...) {
+    static const auto real = next<int (*)(int, unsigned long, ...)>("ioctl");
+    va_list rest;
+    va_start(rest, request);
+    void* const argument = va_arg(rest, void*);
+    va_end(rest);
+    return fails("ioctl") ? -1 : real(fd, request, argument);
+}
+
+extern "C" int fcntl(int fd, int command, ...) {
+    static const auto real = next<int (*)(int, int, ...)>("fcntl");
+    va_list rest;
+    va_start(rest, command);
+    void* const argument = va_arg(rest, void*);
+    va_end(rest);
+    return fails("fcntl") ? -1 : real(fd, command, argument);
+}
+
 extern "C" int open(const char* path, int flags, ...) {
     static const auto real = next<int (*)(const char*, int, ...)>("open");
     va_list rest;
