@@ -124,6 +124,8 @@ def print_row(name, counts):
 def print_gaps(path, file):
     """Each line that did not run, and each condition that always went one way."""
     text = (TOP / path).read_text().split("\n")
+    if max(file.times, default=0) > len(text):
+        sys.exit(f"{path} is not what was compiled any more: build and test again.")
     ways = collections.defaultdict(list)
     for (line, column, end, end_column), (yes, no) in file.branches.items():
         if not (yes and no):
