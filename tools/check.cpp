@@ -107,7 +107,9 @@ void add_check(CLI::App& app, ExitCode& exit) {
         "files of the MKS DLP board (.acfg)");
     const auto files = std::make_shared<std::vector<std::string>>();
     const auto as_json = std::make_shared<bool>(false);
-    command->add_option("FILE", *files, "Files, or names of profiles, screens and scenarios")->required();
+    command->add_option("FILE", *files, "Files, or names of profiles, screens and scenarios")
+        ->type_name("NAME|FILE")
+        ->required();
     command->add_flag("--json", *as_json, "As a JSON array; a single .acfg as an object");
     command->callback([files, as_json, &exit] { exit = check(*files, *as_json); });
 }

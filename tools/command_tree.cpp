@@ -6,17 +6,28 @@
 #include <CLI/Option.hpp>
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 #include "emulator/behaviour/nearest.h"
 
 namespace fauxboard::tools {
 namespace {
 
+/// Its type, without the library's own words for what is valid.
+std::string type_of(const CLI::Option& option) {
+    std::string type = option.get_type_name();
+    for (const std::string_view valid : {":{", ":UINT", ":INT", ":FLOAT", ":NONNEGATIVE", ":POSITIVE"}) {
+        type.resize(std::min(type.size(), type.find(valid)));
+    }
+    return type;
+}
+
 DeclaredOption describe(const CLI::Option& option) {
     DeclaredOption out;
     out.names = option_names(option);
     out.positional = out.names.empty() ? option.get_name(true) : std::string();
     out.value = option_value(option);
+    out.type = type_of(option);
     out.help = option.get_description();
     out.required = option.get_required();
     return out;
@@ -135,6 +146,20 @@ std::string plainly(const std::string& what) {
 
 }  // namespace
 
+std::vector<std::string> DeclaredOption::choices() const {
+    std::vector<std::string> words(1);
+    for (const char c : type) {
+        if (c == '|') {
+            words.emplace_back();
+        } else if (std::islower(static_cast<unsigned char>(c)) == 0) {
+            return {};  // a placeholder, such as NAME
+        } else {
+            words.back() += c;
+        }
+    }
+    return words.size() > 1 ? words : std::vector<std::string>{};
+}
+
 std::vector<const CLI::App*> commands_of(const CLI::App& command) {
     return children(command, true);
 }
@@ -163,12 +188,7 @@ std::string option_value(const CLI::Option& option) {
     if (option_names(option).empty() || option.get_items_expected_max() == 0) {
         return {};
     }
-    std::string type = option.get_type_name();
-    // Behind it the library puts its own words for what is valid.
-    for (const std::string_view valid : {":{", ":UINT", ":INT", ":FLOAT", ":NONNEGATIVE", ":POSITIVE"}) {
-        type.resize(std::min(type.size(), type.find(valid)));
-    }
-    return type;
+    return type_of(option);
 }
 
 std::string unknown_word(const CLI::App& app, const std::vector<std::string>& words) {
@@ -205,8 +225,14 @@ std::vector<DeclaredOption> declared_options(const CLI::App& command) {
         out.push_back(describe(*option));
     }
     for (const CLI::App* group : children(command, false)) {
-        const std::vector<DeclaredOption> more = declared_options(*group);
-        out.insert(out.end(), more.begin(), more.end());
+        for (DeclaredOption& option : declared_options(*group)) {  // each group has a --help of its own
+            const bool again = std::any_of(out.begin(), out.end(), [&option](const DeclaredOption& known) {
+                return !option.names.empty() && known.names == option.names;
+            });
+            if (!again) {
+                out.push_back(std::move(option));
+            }
+        }
     }
     return out;
 }

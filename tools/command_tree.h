@@ -13,8 +13,12 @@ struct DeclaredOption {
     std::vector<std::string> names;  ///< with their dashes, short ones first; empty for a positional
     std::string positional;          ///< its name, if it has no dashes
     std::string value;               ///< what it takes, as in the help: DEV, [=LINK]; empty for a flag
+    std::string type;                ///< the same of a positional too: NAME|FILE, bash|zsh|fish
     std::string help;
     bool required = false;
+
+    /// The words that it takes, when they are a few: those of the type bash|zsh|fish.
+    std::vector<std::string> choices() const;
 };
 
 struct DeclaredCommand {

@@ -366,6 +366,7 @@ void add_display(CLI::App& to, Ctl& ctl) {
     add(to, "screenshot", "Writes what the board's screen shows to a picture",
         [&ctl] { ctl.request["op"] = "screenshot"; })
         ->add_option("FILE", ctl.picture, "FILE.png")
+        ->type_name("FILE.png")
         ->required();
 }
 
@@ -411,7 +412,9 @@ void add_ctl(CLI::App& app, ExitCode& exit) {
     CLI::App* command = app.add_subcommand("ctl", "Reach into a board that runs with --control");
     const auto ctl = std::make_shared<Ctl>();
     command->require_subcommand(1);
-    command->add_option("PATH", ctl->path, "The socket, as given to `run --control`")->required();
+    command->add_option("PATH", ctl->path, "The socket, as given to `run --control`")
+        ->type_name("PATH")
+        ->required();
     command->add_flag("--json", ctl->json, "Print answers and events as they are: JSON lines");
     command->add_option("--timeout", ctl->timeout_ms, "How long to wait for an answer, ms")
         ->type_name("MS")

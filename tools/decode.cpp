@@ -174,7 +174,7 @@ ExitCode decode(const DecodeOptions& options) {
 void add_decode(CLI::App& app, ExitCode& exit) {
     CLI::App* command = app.add_subcommand("decode", "Say in words what each line of a recording means");
     const auto options = std::make_shared<DecodeOptions>();
-    command->add_option("FILE", options->files, "Recordings; none or '-': standard input");
+    command->add_option("FILE", options->files, "Recordings; none or '-': standard input")->type_name("FILE");
     command
         ->add_option(
             "--screen", options->screen,

@@ -6,6 +6,7 @@
 #include "emulator/behaviour/parse_json.h"
 #include "emulator/host/profile_files.h"
 #include "tools/describe_reference.h"
+#include "tools/profile_words.h"
 #include "tools/report.h"
 
 namespace fauxboard::tools {
@@ -13,6 +14,7 @@ namespace {
 
 struct DescribeArguments {
     std::vector<std::string> words;
+    std::string profile;  ///< whose words are among the codes; empty: none
     bool json = false;
     bool markdown = false;
     std::string schema;
@@ -36,7 +38,13 @@ ExitCode describe(const DescribeArguments& arguments) {
         print(reference_markdown());
         return ExitCode::ok;
     }
-    const Choice chosen = choose_reference(arguments.words);
+    std::shared_ptr<const behaviour::Profile> profile;
+    try {
+        profile = arguments.profile.empty() ? nullptr : host::load_profile_by_name(arguments.profile);
+    } catch (const behaviour::ProfileError& error) {
+        return complain("describe", ExitCode::bad_input, error.what());
+    }
+    const Choice chosen = choose_reference(arguments.words, profile.get());
     if (!chosen.wrong.empty()) {
         return complain("describe", ExitCode::usage, chosen.wrong);
     }
@@ -57,7 +65,8 @@ void add_describe(CLI::App& app, ExitCode& exit) {
             "WORD", arguments->words,
             "Parts (fields, actions, events, codes, faults, control, scenarios), or one of what they "
             "hold: heaters.nozzle.target, L3, motion.home, jam; all when none is named")
-        ->type_name("");
+        ->type_name("fields|actions|events|codes|faults|control|scenarios");
+    add_words_of(*command, arguments->profile);
     CLI::Option* json = command->add_flag("--json", arguments->json, "As a JSON object");
     CLI::Option* markdown = command->add_flag("--markdown", arguments->markdown,
                                               "All of it as the Markdown page profiles/REFERENCE.md");

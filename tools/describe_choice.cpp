@@ -68,11 +68,30 @@ std::string nearest_word(const Json& whole, std::string_view word) {
     return std::string(behaviour::nearest(word, views));
 }
 
+/// What a profile calls its own codes and lines, as rows of the part "codes".
+void add_own_codes(const behaviour::Profile& profile, Json& codes) {
+    for (const auto& [code, words] : profile.words) {
+        const bool command = code.starts_with('M') || code.starts_with('G');
+        Json fields = Json::array();
+        for (const auto& [key, name] : words.fields) {
+            fields.push_back({{"key", key}, {"name", name}, {"kind", "text"}});
+        }
+        codes.push_back({{"code", code},
+                         {"direction", command ? "to_board" : "to_screen"},
+                         {"title", words.title},
+                         {"meaning", fmt::format("In the words of {}.", profile.name)},
+                         {"fields", std::move(fields)}});
+    }
+}
+
 }  // namespace
 
-Choice choose_reference(const std::vector<std::string>& words) {
+Choice choose_reference(const std::vector<std::string>& words, const behaviour::Profile* profile) {
     Choice out;
-    const Json whole = reference_json(reference_parts);
+    Json whole = reference_json(reference_parts);
+    if (profile != nullptr) {
+        add_own_codes(*profile, whole["codes"]);
+    }
     if (words.empty()) {
         out.reference = whole;
         return out;

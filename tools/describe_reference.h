@@ -11,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "emulator/behaviour/profile.h"
+
 namespace fauxboard::tools {
 
 /// The parts of the reference, in its order.
@@ -26,8 +28,8 @@ struct Choice {
     nlohmann::ordered_json reference;  ///< as reference_json(), with the rows asked for
     std::string wrong;                 ///< of a word that nothing has, with the nearest one; empty for none
 };
-/// Without words all of it.
-Choice choose_reference(const std::vector<std::string>& words);
+/// Without words all of it. With a profile, what it calls codes of its own is among the codes.
+Choice choose_reference(const std::vector<std::string>& words, const behaviour::Profile* profile = nullptr);
 
 /// For a terminal.
 std::string reference_text(const nlohmann::ordered_json& reference);

@@ -83,7 +83,9 @@ class FleetRun {
         if (arguments_.web) {
             std::vector<panel::Panel::Shown> shown;
             for (std::size_t i = 0; i < members_.size(); ++i) {
-                shown.push_back({fleet_.boards[i].name, *members_[i]->unit.target()});
+                BoardUnit& unit = members_[i]->unit;
+                shown.push_back({fleet_.boards[i].name, *unit.target(),
+                                 [&unit](const std::string& text) { unit.say(board::Level::debug, text); }});
             }
             panel_.emplace(loop_, *arguments_.web, std::move(shown));
         }

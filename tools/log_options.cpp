@@ -57,10 +57,9 @@ void add_log(CLI::App& command, LogOptions& options) {
     command
         .add_option_function<std::string>(
             "--log-level", [&options](const std::string& text) { options.level = read_level(text); },
-            "What the program tells of its own doings, apart from the talk: trace, debug, info, warning, "
-            "error "
-            "or off; in --log-file (default: info), else on stderr (default: as -q and -v say)")
-        ->type_name("LEVEL");
+            "What the program tells of its own doings, apart from the talk; in --log-file (default: info), "
+            "else on stderr (default: as -q and -v say)")
+        ->type_name("trace|debug|info|warning|error|off");
     CLI::Option* const file =
         command
             .add_option("--log-file", options.file,

@@ -44,6 +44,15 @@ ExitCode manual(const CLI::App& app, const std::string& name, const std::string&
     return ExitCode::ok;
 }
 
+/// "run|fleet|...": those that there are when it is asked for.
+std::string names_of(const CLI::App& app) {
+    std::string names;
+    for (const CLI::App* command : commands_of(app)) {
+        names += (names.empty() ? "" : "|") + command->get_name();
+    }
+    return names;
+}
+
 }  // namespace
 
 void add_manual(CLI::App& app, ExitCode& exit) {
@@ -52,6 +61,7 @@ void add_manual(CLI::App& app, ExitCode& exit) {
     const auto folder = std::make_shared<std::string>();
     CLI::Option* command =
         pages->add_option("COMMAND", *name, "The command; fauxboard itself when none is named")
+            ->type_name_fn([&app] { return names_of(app); })
             ->check([&app](const std::string& text) { return unknown_word(app, {text}); });
     pages->add_option("--all", *folder, "Write every page into this folder")
         ->type_name("DIR")
@@ -64,6 +74,7 @@ void add_manual(CLI::App& app, ExitCode& exit) {
     static const std::map<std::string, Shell> known{
         {"bash", Shell::bash}, {"zsh", Shell::zsh}, {"fish", Shell::fish}};
     shells->add_option("SHELL", *shell, "bash, zsh or fish")
+        ->type_name("bash|zsh|fish")
         ->required()
         ->check(one_of({"bash", "zsh", "fish"}));
     shells->callback([&app, shell, &exit] {

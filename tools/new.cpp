@@ -144,6 +144,7 @@ void add_new(CLI::App& app, ExitCode& exit) {
     const auto kind = std::make_shared<std::string>();
     const auto name = std::make_shared<std::string>();
     command->add_option("KIND", *kind, "profile, screen or scenario")
+        ->type_name("profile|screen|scenario")
         ->required()
         ->check(one_of({"profile", "screen", "scenario"}));
     command->add_option("NAME", *name, "What it is called")->required()->check(wrong_name);

@@ -149,7 +149,9 @@ void add_replay(CLI::App& app, ExitCode& exit) {
         ->add_option("--sd", arguments->sd,
                      "Folder that is the board's SD card or stick, to be read and written")
         ->type_name("DIR");
-    command->add_option("CAPTURE", arguments->capture, "The recording, JSON lines")->required();
+    command->add_option("CAPTURE", arguments->capture, "The recording, JSON lines")
+        ->type_name("FILE")
+        ->required();
     CLI::Option* compare = command->add_flag(
         "--compare", arguments->compare,
         "Report instead how our lines differ from the recorded board's; exit code 1 when too much");

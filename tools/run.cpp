@@ -262,7 +262,9 @@ ExitCode Run::operator()() {
     unit_.open();
     if (options_.web) {
         panel_.emplace(loop_, *options_.web,
-                       std::vector{panel::Panel::Shown{unit_.profile()->name, *unit_.target()}});
+                       std::vector{panel::Panel::Shown{
+                           unit_.profile()->name, *unit_.target(),
+                           [this](const std::string& text) { unit_.say(board::Level::debug, text); }}});
     }
     say_ready();
     unit_.warn_of_network(panel_ ? panel_->address() : std::string());

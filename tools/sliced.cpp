@@ -157,7 +157,7 @@ void add_sliced(CLI::App& app, ExitCode& exit) {
         "sliced",
         "Tell what is in a sliced file of a resin printer (.ctb, .cbddlp, .photon, .pws, .photons)");
     const auto options = std::make_shared<SlicedOptions>();
-    command->add_option("FILE", options->file, "The file")->required();
+    command->add_option("FILE", options->file, "The file")->type_name("FILE")->required();
     command->add_flag("--json", options->json, "JSON lines: the header, then each layer");
     CLI::Option* layer =
         command->add_option("--layer", options->layer, "This layer's picture; the first is 0")

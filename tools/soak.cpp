@@ -150,7 +150,8 @@ void add_soak(CLI::App& app, ExitCode& exit) {
         "its promises");
     const auto options = std::make_shared<SoakOptions>();
     CLI::Option* profile =
-        command->add_option("PROFILE", options->profile, "A name of `fauxboard profiles`, or a file");
+        command->add_option("PROFILE", options->profile, "A name of `fauxboard profiles`, or a file")
+            ->type_name("NAME|FILE");
     command
         ->add_option("--screen", options->screen,
                      "Who touches it: a screen of `fauxboard profiles`, or a file")

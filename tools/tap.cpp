@@ -273,7 +273,7 @@ void declare(CLI::App& command, TapOptions& options) {
         .add_option("ENDS", options.ends,
                     "Two ends, A and B: a device, auto, pty, pty=LINK, tcp:HOST:PORT (connects) or "
                     "tcp-listen:HOST:PORT")
-        ->type_name("A B")
+        ->type_name("DEV DEV")
         ->required()
         ->expected(-1);
     add_baud(command, options.baud, "Bits per second of serial ports")->capture_default_str();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "emulator/host/live_board.h"
@@ -22,18 +23,26 @@ class NetworkLine final : public link::UdpListener {
     NetworkLine& operator=(const NetworkLine&) = delete;
 
     void on_datagram(link::UdpPeer from, std::string_view bytes) override {
+        if (from > newest_) {  // numbers go up with each that is not remembered
+            newest_ = from;
+            tell(board::Level::debug,
+                 socket_.name(from) + " sends to the network module at " + socket_.path());
+        }
         board_.visit([&](board::Board& board, SimTime now) { board.receive_datagram(now, from, bytes); });
     }
-    void on_trouble(std::string_view why) override {
+    void on_trouble(std::string_view why) override { tell(board::Level::warning, why); }
+
+  private:
+    void tell(board::Level level, std::string_view text) {
         if (observer_ != nullptr) {
-            observer_->on_notice(board_.now(), board::Level::warning, why);
+            observer_->on_notice(board_.now(), level, text);
         }
     }
 
-  private:
     LiveBoard& board_;
     link::UdpSocket& socket_;
     LiveObserver* observer_;
+    link::UdpPeer newest_ = 0;
 };
 
 }  // namespace fauxboard::host

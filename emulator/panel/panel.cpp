@@ -45,8 +45,12 @@ class Panel::Session final : public Stream {
           hello_(fmt::format("{{\"session\": {}}}\n", number_)),
           session_(panel.boards_[board].target.hub(), [&panel] { panel.server_->nudge(); }) {
         panel_.sessions_.push_back(this);
+        tell("came to");
     }
-    ~Session() override { std::erase(panel_.sessions_, this); }
+    ~Session() override {
+        std::erase(panel_.sessions_, this);
+        tell("left");
+    }
 
     bool is(std::size_t board, std::uint64_t number) const { return board_ == board && number_ == number; }
     bool wants_turn() const override { return !hello_.empty() || session_.has_output() || session_.over(); }
@@ -77,6 +81,14 @@ class Panel::Session final : public Stream {
     }
 
   private:
+    void tell(std::string_view what) const {
+        if (const Shown& shown = panel_.boards_[board_]; shown.tell) {
+            const auto pages = std::count_if(panel_.sessions_.begin(), panel_.sessions_.end(),
+                                             [this](const Session* each) { return each->board_ == board_; });
+            shown.tell(fmt::format("a page {} the board; pages in browsers: {}", what, pages));
+        }
+    }
+
     Panel& panel_;
     std::size_t board_;
     std::uint64_t number_;

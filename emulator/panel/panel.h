@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -27,6 +28,7 @@ class Panel final : private HttpHandler {
     struct Shown {
         std::string name;  ///< what its owner calls it
         host::LiveTarget& target;
+        std::function<void(const std::string&)> tell = {};  ///< told of pages that come and go, when given
     };
     /// `loop` and the targets outlive this. Throws link::LinkError when it cannot listen; see HttpServer.
     Panel(link::EventLoop& loop, const std::string& where, std::vector<Shown> boards);

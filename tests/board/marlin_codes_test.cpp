@@ -26,10 +26,6 @@ struct Marlin : MarlinBench {
               host::profile_finder())) {}
 };
 
-bool has(const std::string& text, std::string_view part) {
-    return text.find(part) != std::string::npos;
-}
-
 /// What stands behind the last `key`, up to a blank or the line's end.
 double behind(const std::string& text, const std::string& key) {
     const std::size_t at = text.rfind(key);

@@ -27,10 +27,6 @@ std::ptrdiff_t count(const std::string& text, std::string_view part) {
     return found;
 }
 
-bool has(const std::string& text, std::string_view part) {
-    return text.find(part) != std::string::npos;
-}
-
 /// What a host that counts its lines sends; only such ones are written to a file.
 std::string numbered(int number, const std::string& command) {
     const std::string line = "N" + std::to_string(number) + " " + command;

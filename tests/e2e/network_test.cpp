@@ -87,6 +87,24 @@ TEST_CASE("run --udp: names never leave the folder, and the answers say so") {
     CHECK(std::filesystem::is_empty(board.card));
 }
 
+TEST_CASE("run --udp: the program's log says once who sends") {
+    const TemporaryFolder folder;
+    const std::string file = folder.file("own.log");
+    Program board({"run", "--profile", "elegoo-mars-pro", "--udp", ":0", "-q", "--log-file", file,
+                   "--log-level", "debug"});
+    const UdpClient socket(board.ready()["udp"]);
+    for (int i = 0; i < 2; ++i) {
+        socket.send("M4002");
+        CHECK(socket.receive(patience_ms).starts_with("ok V"));
+    }
+    CHECK(board.stop() == 0);
+    std::ifstream in(file);
+    const std::string log{std::istreambuf_iterator<char>(in), {}};
+    const std::size_t first = log.find(" sends to the network module at 127.0.0.1:");
+    REQUIRE(first != std::string::npos);
+    CHECK(log.find(" sends to the network module", first + 1) == std::string::npos);
+}
+
 TEST_CASE("run --udp: a port that cannot be had") {
     const Board board;
     check_mistakes({{{"run", "--udp", board.udp}, no_port, "cannot be listened on"},

@@ -53,6 +53,22 @@ class Installed(unittest.TestCase):
                        "lib/systemd/system/fauxboard@.service"):
             self.assertIn(wanted, self.files)
 
+    def test_the_unit_starts_what_was_installed(self):
+        with open(os.path.join(self.moved, "lib/systemd/system/fauxboard@.service"), encoding="utf-8") as unit:
+            [start] = [line for line in unit if line.startswith("ExecStart=")]
+        self.assertTrue(start.startswith(f"ExecStart={self.first}/bin/fauxboard run "), start)
+
+    def test_the_source_archive_is_whole(self):
+        run("cpack", "--config", f"{BUILD}/CPackSourceConfig.cmake", "-G", "TGZ", "-B", self.folder, cwd=BUILD)
+        [archive] = [name for name in os.listdir(self.folder) if name.endswith(".tar.gz")]
+        shutil.unpack_archive(os.path.join(self.folder, archive), os.path.join(self.folder, "source"))
+        top = os.path.join(self.folder, "source", archive.removesuffix(".tar.gz"))
+        self.assertIn("CMakeLists.txt", os.listdir(top))
+        if os.path.exists(os.path.join(SOURCE, ".git")) and shutil.which("git"):
+            tracked = run("git", "-c", "safe.directory=*", "-C", SOURCE, "ls-files").splitlines()
+            there = [name for name in tracked if os.path.exists(os.path.join(SOURCE, name))]
+            self.assertEqual(sorted(set(there) - set(files_of(top))), [])
+
     def test_uninstalled_without_a_trace(self):
         self.assertEqual(files_of(self.first), [])
         folders = [place for place, _, _ in os.walk(self.first)]

@@ -37,7 +37,8 @@ struct Bench {
         : board(host::load_profile_by_name("geeetech-a30t"), {}, {false, 1, &observers}),
           live(board, line, clock, &observers),
           target({loop, board, live, clock, line, nullptr, [this] { quit = true; }, 1, nullptr, nullptr, {}}),
-          panel(loop, "127.0.0.1:0", {{"left", target}}) {
+          panel(loop, "127.0.0.1:0",
+                {{"left", target, [this](const std::string& text) { told.push_back(text); }}}) {
         observers.add(target);
         line.open(live);
         live.start(machine::never, [] {});
@@ -62,6 +63,7 @@ struct Bench {
     host::LiveBoard live;
     bool quit = false;
     host::LiveTarget target;
+    std::vector<std::string> told;  ///< of pages that come and go
     Panel panel;
     std::string address;
     std::string path;  ///< "/TOKEN/"
@@ -344,6 +346,18 @@ TEST_CASE("an address of the user's lasts; a bad one is refused with a sentence"
     CHECK_THROWS_WITH_AS(Panel(b.loop, "127.0.0.1:0/short", {}), doctest::Contains("12 to 64"),
                          link::LinkError);
     CHECK_THROWS_AS(Panel(b.loop, "nonsense", {}), link::LinkError);
+}
+
+TEST_CASE("panel: pages that come and go are told of") {
+    Bench b;
+    {
+        Client page(b);
+        REQUIRE(page.get(b.path + "live/0") == 200);
+        REQUIRE(b.told.size() == 1);
+        CHECK(b.told.back() == "a page came to the board; pages in browsers: 1");
+    }
+    run_until(b.loop, [&] { return b.told.size() == 2; });
+    CHECK(b.told.back() == "a page left the board; pages in browsers: 0");
 }
 
 }  // namespace

@@ -20,6 +20,10 @@ std::vector<MarlinVector> marlin_vectors();
 /// The profile that the vectors are for.
 std::string marlin_profile();
 
+inline bool has(std::string_view text, std::string_view part) {
+    return text.find(part) != std::string_view::npos;
+}
+
 /// A board that speaks as a host on both of its lines, in virtual time, with the bytes it said on each.
 class MarlinBench {
   public:

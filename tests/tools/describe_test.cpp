@@ -7,6 +7,7 @@
 #include "emulator/behaviour/actions.h"
 #include "emulator/behaviour/fields.h"
 #include "emulator/fault/kind.h"
+#include "emulator/host/profile_files.h"
 #include "emulator/machine/events.h"
 #include "protocol/catalogue.h"
 #include "tests/tools/helpers.h"
@@ -69,6 +70,26 @@ TEST_CASE("describe: one field, group, code, action or fault by its name") {
     CHECK(text({"field"}) ==
           "there is no part, field, action, event, code or fault \"field\"; did you mean \"fields\"?");
     CHECK(text({"L3", "heaters.nozle"}).find("did you mean \"heaters.nozzle\"?") != std::string::npos);
+}
+
+TEST_CASE("describe: what a profile calls codes of its own is among the codes") {
+    const auto a30 = host::load_profile_by_name("geeetech-a30");
+    const auto text = [&](const std::string& word) {
+        return tools::reference_text(tools::choose_reference({word}, a30.get()).reference);
+    };
+    CHECK(text("L18").find(
+              "> L18 P26 S8 exception: message page, SD card removed: In the words of geeetech-a30.") !=
+          std::string::npos);
+    CHECK(text("L18").find("> L18       exception: ") != std::string::npos);
+    CHECK(text("L18 P26 S8").find("S9") == std::string::npos);
+    const auto mine = behaviour::load_profile(
+        {"mine.json",
+         R"({"name": "mine", "extends": "geeetech-a30t", "words": {"M2999": {"title": "blow", "fields": {"S": "power"}}}})"},
+        host::profile_finder());
+    const std::string own = tools::reference_text(tools::choose_reference({"M2999"}, mine.get()).reference);
+    CHECK(own.find("< M2999     blow: In the words of mine.") != std::string::npos);
+    CHECK(own.find("      S     text             power") != std::string::npos);
+    CHECK(tools::choose_reference({"M2999"}).wrong != "");
 }
 
 TEST_CASE("describe: only the parts asked for") {
