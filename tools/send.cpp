@@ -92,14 +92,17 @@ class Talk final : public link::LinkListener {
           json_(out_),
           text_(out_, host::Detail::verbose, 0),
           log_(options.json ? static_cast<host::LiveObserver&>(json_) : text_) {
-        if (profile) {
-            const auto words = [profile = std::move(profile)](board::Channel channel,
-                                                              const protocol::DecodedLine& line) {
-                return profile_words(*profile, channel, line);
-            };
-            json_.ask(words);
-            text_.ask(words);
-        }
+        const auto words = [profile = std::move(profile)](board::Channel channel,
+                                                          const protocol::DecodedLine& line) {
+            std::string own = profile ? profile_words(*profile, channel, line) : std::string();
+            const bool unknown = line.code == nullptr && line.direction == protocol::Direction::to_board;
+            if (own.empty() && !profile && unknown && !line.code_text.empty()) {
+                own = line.code_text + ": in no table; a profile's own words come with --profile";
+            }
+            return own;
+        };
+        json_.ask(words);
+        text_.ask(words);
     }
 
     ExitCode run(link::Link& link) {

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <functional>
 #include <istream>
+#include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "emulator/behaviour/parse_json.h"

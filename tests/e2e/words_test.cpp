@@ -85,6 +85,8 @@ TEST_CASE("send: who speaks as a host is called one, and a profile has words for
     const Result own = run({"send", "--wait", "200", "--port", path, "--profile", profile, "M2999"});
     CHECK(contains(own.out, "screen → board  N-0 M2999*"));
     CHECK(contains(own.out, "M2999: the profile's own"));
+    const Result unknown = run({"send", "--wait", "200", "--port", path, "M2999"});
+    CHECK(contains(unknown.out, "M2999: in no table; a profile's own words come with --profile"));
     CHECK(run({"send", "--port", path, "--profile", "geeetech-a30x", "M2999"}).code == bad_input);
 }
 
