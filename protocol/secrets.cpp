@@ -1,21 +1,27 @@
 #include "protocol/secrets.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 
 namespace fauxboard::protocol {
 namespace {
 
-constexpr std::array<std::string_view, 2> codes{"M9003", "M9005"};
+constexpr std::array<std::string_view, 2> numbers{"9003", "9005"};
 
-/// Where the code of a line that sets a password stands; npos for any other line.
+bool is_letter(char c) {
+    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+}
+
+/// Where the code of a line that sets a password stands, also within other words; npos for any other line.
+/// Boards take zeros before a code's number, and a line number right before it.
 std::size_t find_code(std::string_view line) {
-    for (const std::string_view code : codes) {
-        const std::size_t at = line.find(code);
-        const bool whole =
-            at != std::string_view::npos && (at == 0 || line[at - 1] == ' ') &&
-            (at + code.size() == line.size() || line[at + code.size()] < '0' || line[at + code.size()] > '9');
-        if (whole) {
+    for (std::size_t at = line.find('M'); at != std::string_view::npos; at = line.find('M', at + 1)) {
+        const std::size_t number = std::min(line.find_first_not_of('0', at + 1), line.size());
+        const std::size_t end = std::min(line.find_first_not_of("0123456789", number), line.size());
+        const bool sets =
+            std::find(numbers.begin(), numbers.end(), line.substr(number, end - number)) != numbers.end();
+        if (sets && (at == 0 || !is_letter(line[at - 1]))) {
             return at;
         }
     }

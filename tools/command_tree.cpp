@@ -204,7 +204,7 @@ std::string unknown_word(const CLI::App& app, const std::vector<std::string>& wo
                 return unknown_option(*command, name);
             }
             const bool has_value = one_letter ? word.size() > 2 : word.find('=') != std::string::npos;
-            i += option->get_items_expected_min() > 0 && !has_value ? 1 : 0;
+            i += option->get_items_expected_min() > 0 && !has_value ? 1U : 0U;
         } else if (word.starts_with('-') || commands_of(*command).empty()) {
             continue;  // the library's own business
         } else if (const CLI::App* const sub = find_command(*command, word); sub != nullptr) {

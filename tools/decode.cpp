@@ -20,6 +20,7 @@
 #include "emulator/host/profile_files.h"
 #include "emulator/host/screen_files.h"
 #include "emulator/link/host_error.h"
+#include "emulator/link/waiting_file.h"
 #include "emulator/record/screen_judge.h"
 #include "emulator/record/transcript.h"
 #include "emulator/record/transcript_words.h"
@@ -83,6 +84,11 @@ class Inputs {
                 "{} cannot be read: {}.", file,
                 error ? error.message() : "it is no file and no pipe; a stream comes by standard input"));
         }
+        if (link::must_be_waited_for(file)) {
+            throw link::HostError(fmt::format(
+                "{} cannot be read: it would have to be waited for; a stream comes by standard input.",
+                file));
+        }
         std::ifstream& in = streams_.emplace_back(file, std::ios::binary);
         if (!in) {
             throw link::HostError(
@@ -114,7 +120,7 @@ ExitCode decode(const DecodeOptions& options) {
             const std::string file = options.files.empty() ? "-" : options.files.front();
             std::error_code error;
             std::ifstream from_file;
-            if (std::filesystem::is_regular_file(file, error)) {
+            if (std::filesystem::is_regular_file(file, error) && !link::must_be_waited_for(file)) {
                 from_file.open(file, std::ios::binary);
             }
             std::istream& in = file == "-" ? std::cin : from_file;

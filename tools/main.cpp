@@ -17,7 +17,10 @@
 #include <string_view>
 #include <vector>
 
+#include "emulator/behaviour/source.h"
 #include "emulator/host/profile_files.h"
+#include "emulator/link/host_error.h"
+#include "emulator/link/link.h"
 #include "tools/command_tree.h"
 #include "tools/commands.h"
 #include "tools/help_formatter.h"
@@ -139,10 +142,22 @@ void ignore_deadly_signals() {
     std::abort();
 }
 
-/// The last word on an error that nobody handled.
+template <class Error>
+bool is(const std::exception& error) {
+    return dynamic_cast<const Error*>(&error) != nullptr;
+}
+
+/// The last word on an error that no subcommand handled. What is wrong with a file or a line is no bug,
+/// wherever it comes from.
 ExitCode last_word(const std::exception& error) {
-    if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) {
+    if (is<std::bad_alloc>(error)) {
         end_without_memory();
+    }
+    if (is<behaviour::ProfileError>(error) || is<link::HostError>(error)) {
+        return complain("", ExitCode::bad_input, error.what());
+    }
+    if (is<link::LinkError>(error)) {
+        return complain("", ExitCode::no_port, error.what());
     }
     return complain("", ExitCode::internal, std::string("a bug, please report it: ") + error.what());
 }

@@ -1,6 +1,6 @@
 // `fauxboard manual` and `fauxboard completion`: what packages install, and what a shell can source.
 
-#include <CLI/Validators.hpp>
+#include <CLI/App.hpp>
 #include <filesystem>
 #include <map>
 #include <memory>

@@ -91,7 +91,7 @@ std::shared_ptr<const script::Scenario> plan_script(RunOptions& options) {
 
 ExitCode tell_outcome(const RunOptions& options, const script::Player& player, const board::Board& board,
                       const Json& faults, host::TextOutput& out, host::TextOutput& err) {
-    const Outcome& outcome = player.outcome();
+    const Outcome outcome = script::for_others(player.outcome());
     ExitCode exit = exit_code(outcome.verdict);
     Json more{{"seed", options.seed}};
     if (!options.record.empty()) {

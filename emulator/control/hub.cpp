@@ -5,6 +5,7 @@
 #include "emulator/behaviour/own_words.h"
 #include "emulator/behaviour/wire_text.h"
 #include "protocol/annotate.h"
+#include "protocol/secrets.h"
 
 namespace fauxboard::control {
 namespace {
@@ -132,8 +133,9 @@ void Hub::on_sent(SimTime now, board::Channel channel, std::string_view line) {
 }
 
 /// With its words only for those who asked for them, and only once.
-void Hub::tell_line(SimTime now, std::string_view from, std::string_view line, protocol::Direction direction,
+void Hub::tell_line(SimTime now, std::string_view from, std::string_view heard, protocol::Direction direction,
                     board::Verdict verdict) {
+    std::string line;  // as it may be shown to others
     Json bare;
     Json with_words;
     for (Session* session : sessions_) {
@@ -141,6 +143,7 @@ void Hub::tell_line(SimTime now, std::string_view from, std::string_view line, p
             continue;
         }
         if (bare.is_null()) {
+            line = protocol::mask_secrets(heard);
             bare = event("traffic", now);
             bare["from"] = from;
             bare["line"] = behaviour::from_wire(line);

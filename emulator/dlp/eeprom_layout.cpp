@@ -198,16 +198,6 @@ BlockState take_008(Block block, std::span<const std::uint8_t, eeprom_bytes> chi
 
 }  // namespace
 
-std::string_view to_string(Block block) {
-    constexpr std::array<std::string_view, 3> names{"motor", "general", "counters"};
-    return names[static_cast<std::size_t>(block)];
-}
-
-std::string_view to_string(BlockState state) {
-    constexpr std::array<std::string_view, 3> names{"good", "migrated", "broken"};
-    return names[static_cast<std::size_t>(state)];
-}
-
 Kept default_kept(Firmware firmware) {
     return {default_settings(firmware), {}};
 }

@@ -3,7 +3,6 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "emulator/dlp/settings.h"
@@ -16,7 +15,6 @@ using EepromBytes = std::array<std::uint8_t, eeprom_bytes>;
 
 enum class Block : std::uint8_t { motor, general, counters };
 constexpr std::array<Block, 3> all_blocks{Block::motor, Block::general, Block::counters};
-std::string_view to_string(Block block);
 constexpr std::uint16_t address_of(Block block) {
     return static_cast<std::uint16_t>(0x100 * static_cast<unsigned>(block));
 }
@@ -40,7 +38,6 @@ enum class BlockState : std::uint8_t {
     migrated,  ///< of an older program: taken over, and written anew
     broken     ///< wrong sum, or a version that this program does not know: defaults, written anew
 };
-std::string_view to_string(BlockState state);
 
 /// Takes one block out of the chip, each for itself. Where it is broken, `kept` has the defaults.
 BlockState take_block(Block block, std::span<const std::uint8_t, eeprom_bytes> chip, Firmware firmware,

@@ -63,7 +63,6 @@ class Fpga {
     const Counters& counters() const { return counters_; }
 
     /// What a bank holds: 2560 lines of 192 bytes. Empty when nothing was ever stored: all dark.
-    std::span<const std::uint8_t> bank(unsigned n) const { return banks_[n]; }
     std::span<const std::uint8_t> line(unsigned bank, unsigned line) const;
     std::uint32_t lit_pixels(unsigned bank) const;
     /// MD5 of the 2560 packets that bring this picture into bank 0.

@@ -60,14 +60,14 @@ void MksBoard::power_on(SimTime now) {
     supplied_ = true;
     eeprom.cut();
     Kept kept = default_kept(config_.firmware);
+    std::array<BlockState, all_blocks.size()> found{};
     for (const Block block : all_blocks) {
-        block_states_[static_cast<std::size_t>(block)] =
-            take_block(block, eeprom.bytes(), config_.firmware, kept);
+        found[static_cast<std::size_t>(block)] = take_block(block, eeprom.bytes(), config_.firmware, kept);
     }
     settings = kept.settings;
     counters = kept.counters;
     for (const Block block : all_blocks) {
-        if (block_states_[static_cast<std::size_t>(block)] != BlockState::good) {
+        if (found[static_cast<std::size_t>(block)] != BlockState::good) {
             write_block(block, now);
         }
     }

@@ -89,7 +89,6 @@ class MksBoard final : private Listener {
     /// Of the settings file loaded last; nothing before the first, and when it could not be opened.
     const std::optional<AcfgReport>& setup_report() const { return report_; }
     bool setup_opened() const { return setup_opened_; }
-    std::array<BlockState, 3> block_states() const { return block_states_; }
 
     const BoardConfig& config() const { return config_; }
     Stick& stick() { return stick_; }
@@ -131,7 +130,6 @@ class MksBoard final : private Listener {
     Listener& listener_;
     View view_;
     Sound sound_;
-    std::array<BlockState, 3> block_states_{};
     SetupTask task_ = SetupTask::none;
     std::optional<Event> task_event_;  ///< raised when the EEPROM has it all
     std::string setup_file_;

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -146,16 +145,6 @@ std::string printer_fault_sentence(const machine::Fault& fault) {
 
 std::string printer_fault_id(unsigned number) {
     return fmt::format("p{}", number);
-}
-
-unsigned printer_fault_number(std::string_view id) {
-    unsigned number = 0;
-    if (!id.starts_with('p')) {
-        return 0;
-    }
-    const char* const end = id.data() + id.size();
-    const auto result = std::from_chars(id.data() + 1, end, number);
-    return result.ec == std::errc{} && result.ptr == end ? number : 0;
 }
 
 }  // namespace fauxboard::fault

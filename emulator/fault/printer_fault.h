@@ -24,8 +24,7 @@ std::string printer_fault_words(const machine::Fault& fault);
 /// "Printer fault p1, jam:lost=50, is in force."
 std::string printer_fault_sentence(const machine::Fault& fault);
 
-/// "p1" and back; 0 for anything else.
+/// "p1".
 std::string printer_fault_id(unsigned number);
-unsigned printer_fault_number(std::string_view id);
 
 }  // namespace fauxboard::fault

@@ -1,5 +1,7 @@
 #include "emulator/host/profile_files.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <nlohmann/json.hpp>

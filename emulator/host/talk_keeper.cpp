@@ -4,6 +4,7 @@
 
 #include "emulator/behaviour/wire_text.h"
 #include "protocol/annotate.h"
+#include "protocol/secrets.h"
 
 namespace fauxboard::host {
 namespace {
@@ -62,10 +63,11 @@ Json TalkKeeper::to_json() const {
         const Line& line = lines_[lines_.size() < most_lines ? i : (next_ + i) % most_lines];
         const auto direction =
             is_own(line.from) ? protocol::Direction::to_screen : protocol::Direction::to_board;
+        const std::string shown = protocol::mask_secrets(line.text);
         Json one{{"t", machine::to_seconds(line.at)},
                  {"from", line.from},
-                 {"line", behaviour::from_wire(line.text)},
-                 {"words", protocol::explain(protocol::decode_line(line.text, direction))}};
+                 {"line", behaviour::from_wire(shown)},
+                 {"words", protocol::explain(protocol::decode_line(shown, direction))}};
         if (!line.refused.empty()) {
             one["refused"] = line.refused;
         }

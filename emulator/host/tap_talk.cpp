@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "emulator/record/transcript.h"
+#include "protocol/secrets.h"
 
 namespace fauxboard::host {
 namespace {
@@ -71,7 +72,7 @@ void TapTalk::tell(SimTime now, TapSide from, bool packet, std::string_view byte
     const bool from_board = from == *board_;
     if (packet) {
         packets_->packet(now, from_board ? protocol::Direction::to_screen : protocol::Direction::to_board,
-                         bytes);
+                         protocol::mask_secrets(bytes));  // captures are made to be shared
     } else if (from_board) {
         lines_.on_sent(now, board::Channel::main, bytes);
     } else {

@@ -8,10 +8,12 @@
 #include <fstream>
 #include <functional>
 #include <istream>
+#include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "emulator/behaviour/parse_json.h"
 #include "emulator/behaviour/wire_text.h"
+#include "emulator/link/waiting_file.h"
 
 namespace fauxboard::record {
 namespace {
@@ -174,6 +176,9 @@ std::ifstream open_recording(const std::filesystem::path& file) {
     }
     if (kind != std::filesystem::file_type::regular) {
         throw RecordingError(file.string(), 0, error ? error.message() : "it is no file");
+    }
+    if (link::must_be_waited_for(file.string())) {
+        throw RecordingError(file.string(), 0, "it is no file: it would have to be waited for");
     }
     errno = 0;
     std::ifstream in(file, std::ios::binary);

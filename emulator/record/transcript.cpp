@@ -8,6 +8,7 @@
 
 #include "emulator/record/host_log.h"
 #include "protocol/annotate.h"
+#include "protocol/secrets.h"
 
 namespace fauxboard::record {
 namespace {
@@ -157,6 +158,7 @@ std::optional<TranscriptEntry> TranscriptReader::next() {
             continue;
         }
         TranscriptEntry out = parse();
+        out.bytes = protocol::mask_secrets(out.bytes);
         if (out.form == Form::bad || !blank(out.bytes)) {
             return out;
         }

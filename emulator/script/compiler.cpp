@@ -179,9 +179,14 @@ Step Compiler::step(const Json& node, const std::string& pointer) {
     if (out.kind == nullptr) {
         return out;
     }
+    std::size_t problems = findings_.problems.size();
     out.dynamic = check_mentions(node, pointer, *out.kind);
+    if (out.kind->role == Role::block && findings_.problems.size() != problems) {
+        out.kind = nullptr;  // nothing to try it with
+        return out;
+    }
     sampling_ = filled_ = out.dynamic;
-    const std::size_t problems = findings_.problems.size();
+    problems = findings_.problems.size();
     compile(*out.kind, filled(node, out.dynamic ? Lookup(sample) : Lookup(nothing), Escapes::resolve, false),
             pointer, out);
     sampling_ = filled_ = false;

@@ -256,13 +256,13 @@ Block Loader::include(const std::string& name, const std::string& from, const Js
         Parameters parameters(*document, inner);
         Values given;
         for (const auto& [key, value] : arguments.items()) {
-            given.emplace(key, value);
-            if (!is_scalar(value)) {
+            if (is_scalar(value)) {
+                given.emplace(key, value);
+            } else {  // its default stands for it
                 findings.add(pointer,
                              fmt::format("the parameter \"{}\": {}; expected a text, a number, true or "
                                          "false",
                                          key, found(value)));
-                given[key] = "1";
             }
         }
         parameters.give(given, [&](std::string message, std::string nearest) {

@@ -4,6 +4,7 @@
 
 #include "emulator/behaviour/document.h"
 #include "emulator/behaviour/junit.h"
+#include "protocol/secrets.h"
 
 namespace fauxboard::script {
 namespace {
@@ -17,6 +18,19 @@ Json where_json(const Where& where) {
 }
 
 }  // namespace
+
+Outcome for_others(Outcome outcome) {
+    const auto mask = [](std::string& text) { text = protocol::mask_secrets(text); };
+    mask(outcome.sentence);
+    for (StepResult& result : outcome.results) {
+        mask(result.words);
+        mask(result.sentence);
+    }
+    for (Talk& each : outcome.talk) {
+        mask(each.text);
+    }
+    return outcome;
+}
 
 std::string_view verdict_name(Outcome::Verdict verdict) {
     return verdict_names[static_cast<std::size_t>(verdict)];

@@ -46,6 +46,9 @@ struct Outcome {
     std::vector<Talk> talk;  ///< the last that passed
 };
 
+/// As others may see it: without the passwords that lines set.
+Outcome for_others(Outcome outcome);
+
 std::string_view verdict_name(Outcome::Verdict verdict);
 
 /// {"scenario", "verdict", "sentence", "t", "where", "steps", "captures", "talk", ...}. `more` is what the

@@ -20,15 +20,15 @@ re2::RE2::Options options() {
 
 }  // namespace
 
-Pattern::Pattern(std::string utf8) : text_(std::move(utf8)) {
-    if (text_.empty()) {
+Pattern::Pattern(const std::string& utf8) {
+    if (utf8.empty()) {
         throw PatternError("an empty pattern is found in every line");
     }
-    if (text_.size() > most_bytes) {
+    if (utf8.size() > most_bytes) {
         throw PatternError(
-            fmt::format("a pattern of {} bytes; expected at most {}", text_.size(), most_bytes));
+            fmt::format("a pattern of {} bytes; expected at most {}", utf8.size(), most_bytes));
     }
-    const auto bytes = behaviour::to_wire(text_);
+    const auto bytes = behaviour::to_wire(utf8);
     if (!bytes) {
         throw PatternError("the line carries bytes: a pattern holds characters up to U+00FF only");
     }
@@ -39,8 +39,6 @@ Pattern::Pattern(std::string utf8) : text_(std::move(utf8)) {
 }
 
 Pattern::~Pattern() = default;
-Pattern::Pattern(Pattern&&) noexcept = default;
-Pattern& Pattern::operator=(Pattern&&) noexcept = default;
 
 bool Pattern::search(std::string_view line, Captures& captures) const {
     const auto groups = static_cast<std::size_t>(regex_->NumberOfCapturingGroups()) + 1;
@@ -66,10 +64,6 @@ std::vector<std::string> Pattern::names() const {
         out.push_back(name);
     }
     return out;
-}
-
-std::string quoted_pattern(std::string_view text) {
-    return re2::RE2::QuoteMeta({text.data(), text.size()});
 }
 
 }  // namespace fauxboard::script

@@ -29,26 +29,19 @@ class Pattern {
     static constexpr std::size_t most_bytes = 1024;  ///< of its text
 
     /// `utf8`: its characters up to U+00FF stand for bytes. Throws PatternError.
-    explicit Pattern(std::string utf8);
+    explicit Pattern(const std::string& utf8);
     ~Pattern();
-    Pattern(Pattern&&) noexcept;
-    Pattern& operator=(Pattern&&) noexcept;
 
     /// Whether it is found anywhere in the line; ^ and $ are the line's ends. What its named groups
     /// (?P<name>...) found goes into `captures`; a group that took no part is an empty text.
     bool search(std::string_view line, Captures& captures) const;
-    const std::string& text() const { return text_; }
     /// A measure of the memory it takes.
     std::size_t size() const;
     /// Names of its groups.
     std::vector<std::string> names() const;
 
   private:
-    std::string text_;
     std::unique_ptr<re2::RE2> regex_;
 };
-
-/// The text as a pattern that finds just that.
-std::string quoted_pattern(std::string_view text);
 
 }  // namespace fauxboard::script

@@ -402,5 +402,26 @@ TEST_CASE("DLP print: a whole print without anybody looking is over in a moment,
     CHECK(to_seconds(bench.board.print.elapsed(bench.now)) == doctest::Approx(1978).epsilon(0.02));
 }
 
+TEST_CASE("DLP print: layers of no exposure stay dark; with the firmware's mistake the lamp stays lit") {
+    PanelPws wishes = few(3);
+    wishes.exposure_s = wishes.bottom_exposure_s = 0;
+    for (const bool mistaken : {false, true}) {
+        BoardConfig config;
+        config.quirks.light_zero_stays_on = mistaken;
+        DlpBench bench(config, stick_with(wishes));
+        bool lit_in_lift = false;
+        bench.each_step = [&] {
+            const auto& board = bench.board;
+            lit_in_lift = lit_in_lift || (board.lamp.on() && board.print.state() == PrintState::lift);
+        };
+        start(bench);
+        REQUIRE(bench.run_to(Event::print_finished));
+        CHECK(lit_in_lift == mistaken);
+        CHECK(bench.count(Event::print_exposing) == 0);
+        CHECK(bench.count(Event::print_exposed) == 0);
+        CHECK_FALSE(bench.board.lamp.on());
+    }
+}
+
 }  // namespace
 }  // namespace fauxboard::dlp::test

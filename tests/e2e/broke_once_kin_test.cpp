@@ -79,6 +79,31 @@ TEST_CASE("a file that fails while it is read, or has no end, is a sentence ever
     }
 }
 
+TEST_CASE("what is no file is a sentence in every command that reads files") {
+    const TemporaryFolder folder;
+    REQUIRE(::mkfifo(folder.file("pipe").c_str(), 0600) == 0);
+    fs::create_directory(folder.file("folder"));
+    for (const std::string& file : {folder.file("pipe"), folder.file("folder"), std::string("/dev/zero"),
+                                    std::string("/proc/self/mem")}) {
+        for (const Args& args :
+             {Args{"check"}, Args{"replay"}, Args{"replay", "--compare"}, Args{"sliced"}, Args{"fleet"},
+              Args{"soak"}, Args{"soak", "geeetech-a30t", "--scenario"}, Args{"run", "--script"},
+              Args{"run", "--profile"}, Args{"decode", "--profile"}, Args{"decode", "--screen"},
+              Args{"describe", "--schema"}, Args{"screen", "--tcp", ":1", "show", "--screen"}}) {
+            Args with = args;
+            with.push_back(file);
+            CAPTURE(file);
+            CAPTURE(args.back());
+            const Result result = run(with);
+            CHECK(result.code == bad_input);
+            CHECK_FALSE(contains(result.errors, "a bug"));
+        }
+        if (file != folder.file("pipe")) {  // which is a stream there
+            CHECK(run({"decode", file}).code == bad_input);
+        }
+    }
+}
+
 TEST_CASE("two who would write one file: the second is told") {
     const TemporaryFolder folder;
     const std::string chip = folder.file("chip");

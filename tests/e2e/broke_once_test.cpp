@@ -184,5 +184,56 @@ TEST_CASE("what belongs to this user alone is for this user alone") {
     CHECK((fs::status(folder.file("settings.job")).permissions() & fs::perms::others_all) == fs::perms::none);
 }
 
+TEST_CASE("a password that the line sets is in nothing that is made to be shown to others") {
+    const TemporaryFolder folder;
+    put(folder.file("play.json"), R"({"name": "play", "profile": "elegoo-mars-pro", "steps": [{"wait": "1s"},
+        {"request": "M9003 \"home\",\"hunter2\""}, {"wait": "1s"}, {"expect": "^NEVER", "within": "1s"}]})");
+    const auto text_of = [&](const char* name) {
+        std::ifstream in(folder.file(name), std::ios::binary);
+        return std::string(std::istreambuf_iterator<char>(in), {});
+    };
+    for (const bool json : {false, true}) {
+        Args args{"run",         "-v",
+                  "--script",    folder.file("play.json"),
+                  "--speed",     "max",
+                  "--report",    folder.file("report"),
+                  "--junit",     folder.file("junit"),
+                  "--record",    folder.file("talk"),
+                  "--log-file",  folder.file("log"),
+                  "--log-level", "trace"};
+        if (json) {
+            args.emplace_back("--json");
+        }
+        const Result played = run(args);
+        CHECK(played.code == failed);
+        CHECK(contains(played.out + played.errors, "M9003"));
+        CHECK_FALSE(contains(played.out + played.errors, "hunter2"));
+        for (const char* name : {"report", "junit", "talk", "log"}) {
+            CAPTURE(name);
+            CHECK_FALSE(text_of(name).empty());
+            CHECK_FALSE(contains(text_of(name), "hunter2"));
+        }
+    }
+
+    Program board({"run", "-q", "--profile", "elegoo-mars-pro", "--no-pacing",
+                   "--pty=" + folder.file("board"), "--control", folder.file("ctl")});
+    board.ready();
+    Program tap({"tap", "pty=" + folder.file("end"), folder.file("board"), "--pcapng", folder.file("pcapng"),
+                 "--record", folder.file("tapped"), "--decode"});
+    tap.ready();
+    const Result sent = run({"send", "--bare", "--port", folder.file("end"), "M9003 \"home\",\"hunter2\""});
+    CHECK(contains(sent.out, "ok"));
+    CHECK_FALSE(contains(sent.out + sent.errors, "hunter2"));
+    CHECK(tap.stop() == 0);
+    CHECK_FALSE(contains(tap.errors(), "hunter2"));
+    CHECK(board.stop() == 0);
+    for (const char* name : {"pcapng", "tapped"}) {
+        CHECK(contains(text_of(name), "M9003"));
+        CHECK_FALSE(contains(text_of(name), "hunter2"));
+    }
+    put(folder.file("serial.log"), "M9003 \"home\",\"hunter2\"\n");
+    CHECK_FALSE(contains(run({"decode", folder.file("serial.log")}).out, "hunter2"));
+}
+
 }  // namespace
 }  // namespace fauxboard::e2e

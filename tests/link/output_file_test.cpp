@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "emulator/link/host_error.h"
+#include "emulator/link/waiting_file.h"
 #include "helpers.h"
 
 using namespace fauxboard::link;
@@ -128,4 +129,15 @@ TEST_CASE("output: the reader of a pipe gets all of it, in order, when it comes 
     }
     CHECK(came == said);
     CHECK(out.finish().empty());
+}
+
+TEST_CASE("a file that has its end is never waited for") {
+    const TemporaryFolder folder;
+    std::ofstream(folder.file("empty")).close();
+    REQUIRE(::mkfifo(folder.file("pipe").c_str(), 0600) == 0);
+    for (const std::string& file : {folder.file("empty"), folder.file("pipe"), folder.file("none"),
+                                    std::string("/proc/self/status"), std::string("/dev/zero")}) {
+        CAPTURE(file);
+        CHECK_FALSE(must_be_waited_for(file));
+    }
 }

@@ -9,6 +9,10 @@ TEST_CASE("secrets: a network's password is masked, in any of its forms") {
     CHECK(mask_secrets("M9003 \"home\",\"secret\"") == "M9003 \"home\",\"***\"");
     CHECK(mask_secrets("M9005 ``my_ssid\",\"my_password``\r\n") == "M9005 ``my_ssid\",\"***\"\r\n");
     CHECK(mask_secrets("N3 M9003 \"home\",\"se*5ret\"") == "N3 M9003 \"home\",\"***\"");
+    for (const char* before : {"M009003", "N3M9003", "request \"M9003", "\tM9005"}) {
+        CHECK(mask_secrets(before + std::string(" \"home\",\"secret\"")) ==
+              before + std::string(" \"home\",\"***\""));
+    }
     CHECK(mask_secrets("M9003 home,secret\n") == "M9003 home,\"***\"\n");
 }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <optional>
 
 #include "emulator/host/script_files.h"
 #include "tests/support/scenario_run.h"
@@ -88,6 +90,34 @@ TEST_CASE("wrong scenarios: arguments of the command line") {
           "--param: the scenario has no parameter \"rouns\"; did you mean \"rounds\"?");
     CHECK(arguments({{"rounds", "some"}})
               .find("/steps/1/repeat: found the text \"some\"; expected how often") != std::string::npos);
+}
+
+TEST_CASE("wrong scenarios: files that include one another, too deep, or that are no JSON") {
+    const auto load = [](const std::map<std::string, std::string, std::less<>>& files) -> std::string {
+        const auto find = [&](std::string_view name,
+                              std::string_view) -> std::optional<behaviour::SourceText> {
+            const auto hit = files.find(name);
+            return hit == files.end() ? std::nullopt
+                                      : std::optional(behaviour::SourceText{hit->first, hit->second});
+        };
+        try {
+            load_scenario({"a", files.at("a")}, find, host::make_cast("geeetech-a30t", ""), {});
+        } catch (const behaviour::ProfileError& error) {
+            return error.what();
+        }
+        return "(nothing)";
+    };
+    const auto includes = [](const std::string& name) {
+        return R"({"name": "x", "steps": [{"include": ")" + name + R"("}]})";
+    };
+    CHECK(load({{"a", includes("b")}, {"b", includes("a")}}) ==
+          "b:1: /steps/0/include: the scenarios include one another in a circle");
+    std::map<std::string, std::string, std::less<>> deep;
+    for (char name = 'a'; name < 'z'; ++name) {
+        deep[std::string(1, name)] = includes(std::string(1, static_cast<char>(name + 1)));
+    }
+    CHECK(load(deep) == "h:1: /steps/0/include: scenarios are included more than 8 deep");
+    CHECK(load({{"a", includes("b")}, {"b", "{"}}).starts_with("b:1: not JSON"));
 }
 
 }  // namespace
