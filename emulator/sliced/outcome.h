@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace fauxboard::sliced {
@@ -12,9 +13,9 @@ template <class T>
 class Outcome {
   public:
     Outcome(T value) : value_(std::move(value)) {}
-    static Outcome failure(std::string problem) {
+    static Outcome failure(std::string_view problem) {
         Outcome outcome;
-        outcome.problem_ = std::move(problem);
+        outcome.problem_ = problem;
         return outcome;
     }
 

@@ -136,9 +136,9 @@ void Network::step(std::string_view line) {
     if (what >= '1' && what <= '3') {
         datagram(static_cast<std::uint64_t>(what - '0'), rest);
     } else if (what >= 'a' && what <= 'c') {
-        chunk(static_cast<std::uint64_t>(what - 'a' + 1), number, false);
+        chunk(static_cast<std::uint64_t>(what - 'a') + 1, number, false);
     } else if (what >= 'A' && what <= 'C') {
-        chunk(static_cast<std::uint64_t>(what - 'A' + 1), number, true);
+        chunk(static_cast<std::uint64_t>(what - 'A') + 1, number, true);
     } else if (what == 't') {
         pass(std::chrono::milliseconds(std::min<std::uint64_t>(number, 60'000)));
     } else if (what == 's') {

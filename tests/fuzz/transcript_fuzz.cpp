@@ -60,6 +60,7 @@ std::size_t count_of(const std::vector<std::string>& texts) {
     std::vector<std::istringstream> streams;
     streams.reserve(texts.size());
     std::vector<record::TranscriptReader> readers;
+    readers.reserve(texts.size());
     for (const std::string& text : texts) {
         readers.emplace_back(streams.emplace_back(text), "input");
     }
