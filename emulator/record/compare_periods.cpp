@@ -14,7 +14,8 @@ constexpr double regular_share = 0.05;
 /// Longer gaps are pauses, not periods.
 constexpr double longest_s = 30;
 constexpr double longest_repeat_s = 2;
-constexpr std::size_t least_regular = 2;
+/// Of fewer, one that waited for its turn behind another line moves the mean too far.
+constexpr std::size_t least_regular = 5;
 
 PeriodStats stats(std::size_t frames, std::vector<double> gaps) {
     PeriodStats out;

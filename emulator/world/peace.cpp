@@ -56,8 +56,8 @@ void World::ask(Channel channel) {
     }
 }
 
-/// As hosts do: a few ahead, and no more until they are acknowledged, however slow the axes are set. What waits
-/// for the user is continued after an hour.
+/// As hosts do: a few ahead, and no more until they are acknowledged, however slow the axes are set. What
+/// waits for the user is continued after an hour.
 void World::let_most_be_acknowledged() {
     constexpr int few = 4;
     constexpr SimTime longest = std::chrono::hours(200);

@@ -118,8 +118,8 @@ class World final : private board::Observer {
     SimTime now_{0};
     SimTime past_{0};
     std::optional<SimTime> told_to_jump_;  ///< a line said that the job goes on elsewhere
-    std::int64_t line_number_ = 0;  ///< of the USB side's commands
-    std::string heard_;             ///< on the line that is being asked
+    std::int64_t line_number_ = 0;         ///< of the USB side's commands
+    std::string heard_;                    ///< on the line that is being asked
     board::Channel asked_ = board::Channel::main;
     std::uint64_t digest_ = 0xCBF29CE484222325U;
     std::uint64_t requests_ = 0;
