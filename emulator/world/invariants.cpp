@@ -233,6 +233,14 @@ std::string screen_lives(const View& view) {
     return "the screen crashed";
 }
 
+std::string damaged_is_refused(const View& view) {
+    return view.ledger.damaged_taken == 0 ? "" : "a frame with a wrong checksum was carried out";
+}
+
+std::string lost_is_asked_for(const View& view) {
+    return view.ledger.lost_counted == 0 ? "" : "a line that was not taken counts as taken";
+}
+
 constexpr std::array table{
     Invariant{Moment::output, "whole lines", "What the board says at once ends with the end of a line.",
               whole_lines},
@@ -249,6 +257,11 @@ constexpr std::array table{
     Invariant{Moment::step, "no more ok than commands",
               "The USB side never hears more acknowledgements than there were commands.",
               no_more_ok_than_commands},
+    Invariant{Moment::step, "damaged is refused", "What arrives with a wrong checksum is not carried out.",
+              damaged_is_refused},
+    Invariant{Moment::step, "lost is asked for",
+              "The number of a line that was not taken does not count as taken: it is asked for again.",
+              lost_is_asked_for},
     Invariant{Moment::step, "progress stays", "A job never goes back in its file, unless it is told to.",
               progress_stays},
     Invariant{Moment::step, "place is within", "The place of a job lies within its file.", place_is_within},

@@ -28,7 +28,9 @@ struct Ledger {
     // The USB side. Commands that a reset or a power cut swallowed are neither.
     std::uint64_t commands_taken = 0;
     std::uint64_t commands_acknowledged = 0;
-    bool ok_of_resend = false;  ///< the next ok belongs to a line that is to be sent again
+    bool ok_of_resend = false;        ///< the next ok belongs to a line that is to be sent again
+    std::uint64_t damaged_taken = 0;  ///< frames with a wrong checksum that were carried out all the same
+    std::uint64_t lost_counted = 0;   ///< lines that were not taken, and whose number counts as taken
 
     // The job under way.
     std::uint64_t job_byte = 0;

@@ -86,6 +86,15 @@ void World::on_received(SimTime now, Channel channel, std::string_view line, boa
         new_job();  // with an S it is told to go on elsewhere, once it is carried out
         told_to_jump_ = now;
     }
+    const behaviour::LineConfig& main_line = cast_.profile->line;
+    if (channel == Channel::main && verdict == board::Verdict::accepted && main_line.codes.empty() &&
+        main_line.framing == behaviour::Framing::frames &&
+        protocol::unframe(line, main_line.checksum).fault != protocol::FrameFault::none) {
+        ++ledger_.damaged_taken;
+    }
+    if (channel == Channel::host) {
+        host_verdict_ = verdict;
+    }
     std::array<char, protocol::max_line_bytes> room;
     const std::string_view kept = protocol::read_host_line(line, room, protocol::max_line_bytes);
     const bool blank = kept.find_first_not_of(" \t\r") == std::string_view::npos;
@@ -287,7 +296,9 @@ void World::command(std::string_view body) {
     const std::string line = fmt::format("N{} {}", ++line_number_, body);
     say(Channel::host, fmt::format("{}*{}\n", line, checksum(line)));
     // One that was not taken is not counted. Not that of whichever line spoke last.
-    line_number_ = board_->machine().host_side().lines[machine::HostSide::usb_port].last;
+    const std::int64_t last = board_->machine().host_side().lines[machine::HostSide::usb_port].last;
+    ledger_.lost_counted += host_verdict_ != board::Verdict::accepted && last == line_number_ ? 1U : 0U;
+    line_number_ = last;
 }
 
 void World::datagram(std::uint64_t peer, std::string_view bytes) {
