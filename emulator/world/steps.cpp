@@ -106,6 +106,14 @@ void host_commands(World& w, Dice& dice) {
     w.command(request(w.cast().commands, dice));
 }
 
+/// More than any queue holds, by a host that does not wait.
+void host_floods(World& w, Dice& dice) {
+    w.command("G4 S3");
+    for (std::uint64_t i = dice.below(5000); i > 0; --i) {
+        w.command("M105");
+    }
+}
+
 void host_stammers(World& w, Dice& dice) {
     static constexpr std::array<std::string_view, 8> odd{
         "N3 M105*1\n", "N5 M105\n", "M105*7\n", "\n", "M\n", "N\n", "*\n", "N-1 M110*0\n"};
@@ -310,6 +318,7 @@ constexpr std::array table{
     StepKind{"screen floods", 1, screen_floods},
     StepKind{"host commands", 20, host_commands},
     StepKind{"host stammers", 4, host_stammers},
+    StepKind{"host floods", 1, host_floods},
     StepKind{"host prints", 3, host_prints},
     StepKind{"host uploads", 3, host_uploads},
     StepKind{"network asks", 8, network_asks},
