@@ -74,7 +74,11 @@ void World::let_most_be_acknowledged() {
 void World::let_moves_end() {
     command("M400");
     pass(rest);
-    for (int i = 0; i < most_rests && owed() > 0; ++i) {
+    rest_while([this] { return owed() > 0; });
+}
+
+void World::rest_while(const std::function<bool()>& goes_on) {
+    for (int i = 0; i < most_rests && goes_on(); ++i) {
         pass(rest);
     }
 }
@@ -140,9 +144,7 @@ void World::proof_print() {
             pass(rest);
         }
         print(proof.file);
-        for (int i = 0; i < most_rests && prints(); ++i) {
-            pass(rest);
-        }
+        rest_while([this] { return prints(); });
     }
 }
 
@@ -184,11 +186,10 @@ void World::peace() {
     }
     const machine::HostSide& side = board_->machine().host_side();
     const auto waits = [](const auto& line) { return line.waiting > 0; };
-    for (int i = 0; i < most_rests && (owed() > 0 || side.running() ||
-                                       std::any_of(side.lines.begin(), side.lines.end(), waits));
-         ++i) {
-        pass(rest);  // what is asked waits behind the moves
-    }
+    // What is asked waits behind the moves.
+    rest_while([&] {
+        return owed() > 0 || side.running() || std::any_of(side.lines.begin(), side.lines.end(), waits);
+    });
     if (board_->machine().hung()) {
         reset();
         pass(std::chrono::minutes(1));

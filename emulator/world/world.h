@@ -99,6 +99,8 @@ class World final : private board::Observer {
     void after_step();
     void ask(board::Channel channel);
     void let_moves_end();
+    /// Until that is no longer so, or a month and more has passed.
+    void rest_while(const std::function<bool()>& goes_on);
     void walk();
     void proof_print();
     bool prints() const;

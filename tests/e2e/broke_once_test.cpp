@@ -149,19 +149,6 @@ TEST_CASE("where the ready line can never be written nobody waits for it") {
     CHECK(contains(program.errors(), "The line \"ready\" cannot be written to stdout"));
 }
 
-TEST_CASE("whatever signal ends it, its link goes with it") {
-    const TemporaryFolder folder;
-    const std::string name = folder.file("screen");
-    for (const int number : {SIGQUIT, SIGUSR1, SIGUSR2}) {
-        CAPTURE(number);
-        Program program({"run", "--pty=" + name});
-        program.ready();
-        program.signal(number);
-        CHECK(program.wait() == 0);
-        CHECK_FALSE(fs::exists(fs::symlink_status(name)));
-    }
-}
-
 TEST_CASE("who binds beyond this computer is warned") {
     const Result open = run({"run", "--tcp", "0.0.0.0:0", "--duration", "1s", "--speed", "max"});
     CHECK(open.code == 0);

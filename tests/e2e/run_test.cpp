@@ -44,7 +44,7 @@ TEST_CASE("the first line says where the board is") {
 TEST_CASE("a link name is there while it runs, however it is ended") {
     const TemporaryFolder folder;
     const std::string name = folder.file("screen");
-    for (const int number : {SIGTERM, SIGINT, SIGHUP}) {
+    for (const int number : {SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2}) {
         CAPTURE(number);
         Program program({"run", "--pty=" + name});
         const auto ready = program.ready();
