@@ -26,17 +26,20 @@ AxisValues target_of(GcodeSource& r, Line line) {
 }
 
 /// Filament that must not be moved counts as moved, as Marlin has it, and the rest of the line is done.
-void guard_extrusion(GcodeSource& r, double e_mm) {
+/// Whether that is so.
+bool guard_extrusion(GcodeSource& r, double e_mm) {
     GcodeMachine& p = r.on;
     const double way = std::abs(e_mm - p.motion.planned()[3]);
     if (!p.guard.on || way == 0) {
-        return;
+        return false;
     }
     const bool cold = !p.guard.cold_allowed && p.thermal.sensed_c(HeaterId::nozzle) < p.guard.min_c;
-    if (cold || (p.guard.longest_mm > 0 && way > p.guard.longest_mm)) {
-        p.motion.set_position({std::nullopt, std::nullopt, std::nullopt, e_mm});
-        p.events.raise(cold ? event("motion.cold") : event("motion.too_long"));
+    if (!cold && (p.guard.longest_mm <= 0 || way <= p.guard.longest_mm)) {
+        return false;
     }
+    p.motion.set_position({std::nullopt, std::nullopt, std::nullopt, e_mm});
+    p.events.raise(cold ? event("motion.cold") : event("motion.too_long"));
+    return true;
 }
 
 void move(GcodeSource& r, Line line) {
@@ -59,8 +62,9 @@ void arc(GcodeSource& r, Line line) {
     request.radius = line.number('R') * r.on.modal.unit_mm;
     request.clockwise = line.code == 2;
     request.feed_mm_s = r.on.modal.feed_mm_s;
-    guard_extrusion(r, request.to[3]);
-    request.from[3] = r.on.motion.planned()[3];
+    if (guard_extrusion(r, request.to[3])) {
+        request.from[3] = request.to[3] = r.on.motion.planned()[3];
+    }
     if (!r.arc.begin(request)) {
         r.on.events.raise(event("motion.bad_arc"));
     }

@@ -10,12 +10,16 @@ namespace {
 
 using Kind = ProcedureStep::Kind;
 constexpr std::size_t z_axis = 2;
-constexpr double far_mm = 1e5;  // beyond any machine; keeps arithmetic finite whatever the line says
+constexpr std::size_t e_axis = 3;
+constexpr double far_mm = 1e5;    // beyond any machine; keeps arithmetic finite whatever the line says
+constexpr double far_e_mm = 1e9;  // the extruder runs on and on: a spool is more than 300 m
 
-constexpr double far_e_mm = 1e9;
+double sane(double mm, double most = far_mm) {
+    return std::isfinite(mm) ? std::clamp(mm, -most, most) : 0.0;
+}
 
-double sane(double mm) {
-    return std::isfinite(mm) ? std::clamp(mm, -far_mm, far_mm) : 0.0;
+double most_of(std::size_t axis) {
+    return axis == e_axis ? far_e_mm : far_mm;
 }
 
 /// Time of a move from rest to rest with one acceleration.
@@ -63,7 +67,9 @@ void Motion::power_on() {
 void Motion::set_motors(bool on) {
     motors_ = on;
     if (!on) {
-        abort();
+        if (busy()) {
+            abort();  // at rest what was too short to be a move stays part of the place, as with Marlin
+        }
         homed_ = 0;  // a loose head may be anywhere
     }
 }
@@ -80,7 +86,7 @@ void Motion::set_position(const AxisTargets& values) {
         if (!values[i]) {
             continue;
         }
-        const double mm = sane(*values[i]);
+        const double mm = sane(*values[i], most_of(i));
         if (i < offset_.size()) {
             offset_[i] += planned_[i] - mm;
         }
@@ -118,7 +124,8 @@ MoveOutcome Motion::move(const MoveRequest& request, SimTime now, EventQueue& ev
         }
         any = true;
         const bool relative = request.force_relative || (i == 3 ? relative_e() : relative_);
-        double target = sane(sane(*request.values[i]) + (relative ? planned_[i] : 0.0));
+        const double most = most_of(i);
+        double target = sane(sane(*request.values[i], most) + (relative ? planned_[i] : 0.0), most);
         if (request.limits && i < 3) {
             const double inside = std::clamp(target, 0.0, config_.volume_mm[i]);
             if (inside != target) {
@@ -223,8 +230,7 @@ void Motion::stream(const AxisValues& target, double feed_mm_s, std::uint64_t by
     for (std::size_t i = 0; i < config_.volume_mm.size(); ++i) {
         inside[i] = std::clamp(sane(target[i]), 0.0, config_.volume_mm[i]);
     }
-    // The extruder runs on and on: a spool is more than 300 m.
-    inside[3] = std::isfinite(target[3]) ? std::clamp(target[3], -far_e_mm, far_e_mm) : executed_[3];
+    inside[e_axis] = std::isfinite(target[e_axis]) ? sane(target[e_axis], far_e_mm) : executed_[e_axis];
     motors_ = true;
     planner_.add({executed_, inside, feed_mm_s, byte});
     planned_ = accepted_ = inside;

@@ -77,8 +77,13 @@ void World::let_moves_end() {
     rest_while([this] { return owed() > 0; });
 }
 
+/// What waits for the user is continued.
 void World::rest_while(const std::function<bool()>& goes_on) {
-    for (int i = 0; i < most_rests && goes_on(); ++i) {
+    const auto waits = [this] { return board_->machine().job.waits_for_user; };
+    for (int i = 0; i < most_rests && (waits() || goes_on()); ++i) {
+        if (waits()) {
+            tinker([](machine::Machine& machine) { machine.user_continues(); });
+        }
         pass(rest);
     }
 }
@@ -161,6 +166,14 @@ void World::print(const std::string& file) {
     }
 }
 
+/// That a host or a screen was writing, and has forgotten.
+void World::close_files() {
+    say(Channel::host, "M29\n");
+    if (cast_.profile->line.framing == behaviour::Framing::commands) {
+        say(Channel::main, "M29\n");
+    }
+}
+
 void World::peace() {
     scene_.reset();
     disk_.set_trouble(Disk::Trouble::none);
@@ -172,24 +185,20 @@ void World::peace() {
     });
     for (const Channel channel : {Channel::host, Channel::main}) {
         say(channel, "\n");
-        if (channel == Channel::host || cast_.profile->line.framing == behaviour::Framing::commands) {
-            say(channel, "M29\n");  // of a file that its host has forgotten
-        }
     }
+    close_files();
     if (board_->machine().hung()) {
         reset();
     }
     pass(rest);
-    for (int i = 0; i < 50 && board_->machine().job.waits_for_user; ++i) {
-        tinker([](machine::Machine& machine) { machine.user_continues(); });
-        pass(rest);
-    }
     const machine::HostSide& side = board_->machine().host_side();
     const auto waits = [](const auto& line) { return line.waiting > 0; };
     // What is asked waits behind the moves.
     rest_while([&] {
         return owed() > 0 || side.running() || std::any_of(side.lines.begin(), side.lines.end(), waits);
     });
+    close_files();  // the first time a full queue may have lost it
+    pass(std::chrono::minutes(1));
     if (board_->machine().hung()) {
         reset();
         pass(std::chrono::minutes(1));

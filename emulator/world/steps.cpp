@@ -252,8 +252,10 @@ void value_changes(World& w, Dice& dice) {
     if (field.set == nullptr || of_job) {
         return;
     }
-    // A switch that is taken for open when it is closed, a motor without a speed.
-    for (const std::string_view begin : {"setup.", "config.", "platform.", "print."}) {
+    // A switch that is taken for open when it is closed, a motor without a speed, an alarm that nobody calls
+    // off.
+    for (const std::string_view begin :
+         {"setup.", "config.", "platform.", "print.", "leveling.probe_alarm"}) {
         if (field.path.starts_with(begin)) {
             w.misset();
         }

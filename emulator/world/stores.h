@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -46,7 +47,12 @@ class EepromCells final : public machine::EepromCells {
 class JobPlace final : public machine::JobPlaceStore {
   public:
     std::optional<std::string> load() override { return now_; }
-    void keep(std::string_view place) override { put(std::string(place)); }
+    void keep(std::string_view place) override {
+        put(std::string(place));
+        if (on_keep) {
+            on_keep();
+        }
+    }
     void drop() override { put(std::nullopt); }
 
     void power_cut(fault::Dice& dice) {
@@ -55,6 +61,7 @@ class JobPlace final : public machine::JobPlaceStore {
         }
         before_ = now_;
     }
+    std::function<void()> on_keep;  ///< a board may reach many places between two moments that are looked at
 
   private:
     void put(std::optional<std::string> place) {

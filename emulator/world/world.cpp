@@ -43,6 +43,7 @@ World::World(const Cast& cast, std::uint64_t seed, board::Observer* listener)
         screen_.emplace(cast.screen);
         screen_->power_on(SimTime{0});
     }
+    job_place_.on_keep = [this] { note_place(); };
     make_board();
 }
 

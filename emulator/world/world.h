@@ -101,6 +101,7 @@ class World final : private board::Observer {
     void let_moves_end();
     /// Until that is no longer so, or a month and more has passed.
     void rest_while(const std::function<bool()>& goes_on);
+    void close_files();
     void walk();
     void proof_print();
     bool prints() const;

@@ -281,6 +281,12 @@ TEST_CASE("Marlin: texts for the display are told the host, where it was built s
     CHECK(usual.told("M117 hello") == "ok\n");
 }
 
+TEST_CASE("Marlin: a cold arc takes as long as its way, however much filament it asks for") {
+    Marlin board;
+    CHECK(board.told("G2 I5 E965811781806281208 F6000", 1) == "echo: cold extrusion prevented\nok\n");
+    CHECK(board.told("M400", 1) == "ok\n");
+}
+
 TEST_CASE("Marlin: the power switch, the input shaping, where they are there") {
     Marlin board(R"("power_switch": {"value": 1}, "input_shaping": {"value": 1})");
     CHECK(board.told("M80 S") == "PS:1\nok\n");

@@ -272,6 +272,39 @@ TEST_CASE("motion: it is homed when all three axes are, until the motors go off"
     CHECK(bench.motion.babystep_mm() == 0);
 }
 
+TEST_CASE("motion: what was too short to be a move is still there when the motors go off at rest") {
+    Bench bench;
+    const auto jog = [&bench](double mm) {
+        bench.motion.stream({100 + mm, 50, 20, 0}, 20, 0);
+        bench.motion.start_stream(bench.now);
+        bench.until_idle();
+    };
+    jog(10);
+    jog(10.02);  // less than Marlin's six steps
+    bench.motion.set_motors(false);
+    CHECK(bench.motion.planned()[0] == doctest::Approx(110.02));
+    jog(60);
+    jog(160);
+    bench.motion.stream({100, 50, 20, 0}, 20, 0);
+    bench.motion.start_stream(bench.now);
+    bench.motion.set_motors(false);  // while it moves
+    CHECK(bench.motion.planned()[0] == doctest::Approx(260));
+}
+
+TEST_CASE("motion: the extruder's place may lie far beyond any axis") {
+    Bench bench;
+    bench.motion.set_position({std::nullopt, std::nullopt, std::nullopt, 250'000});
+    CHECK(bench.motion.planned()[3] == 250'000);
+    MoveRequest request;
+    request.values[3] = 10;
+    request.force_relative = true;
+    bench.motion.move(request, bench.now, bench.events);
+    bench.until_idle();
+    CHECK(bench.motion.planned()[3] == 250'010);
+    bench.motion.set_position({1e6, std::nullopt, std::nullopt, std::nullopt});
+    CHECK(bench.motion.planned()[0] == 1e5);
+}
+
 TEST_CASE("motion: a probe ends on the bed, a reference probe on the nominal plane") {
     Bench bench;
     bench.config.probe_trigger_mm = 2.5;
