@@ -78,7 +78,7 @@ void HostCommands::begin(std::size_t from, std::string_view command, SimTime now
     parse(command);
     HostSide::begin(from, command, now);
     source_.now = now;
-    source_.byte = source_.on.job.place();
+    source_.byte = Planner::no_byte;
     if (code_ != nullptr && code_->needs != Needs::nothing) {
         wait_busy_ = never;
     }

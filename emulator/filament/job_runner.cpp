@@ -53,6 +53,11 @@ void JobRunner::pause() {
     paused_at_ = on_.motion.planned();
 }
 
+void JobRunner::drop_line() {
+    held_ = ended_ = false;
+    source_.arc.clear();
+}
+
 void JobRunner::resume(SimTime now) {
     wake_ = source_.wake = source_.now = now;
     // Anew: the card may have been out, and another one may be in.
@@ -75,6 +80,7 @@ void JobRunner::resume(SimTime now) {
 
 void JobRunner::seek() {
     held_ = ended_ = false;
+    on_.motion.disown_streamed();
     enough_byte_ = on_.job.place() + breath_bytes;
     const Volume* volume = storage_.volume(on_.job.volume());
     reader_.close();

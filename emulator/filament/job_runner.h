@@ -37,6 +37,8 @@ class JobRunner : public machine::BegunCommand {
     void start(SimTime now);
     /// The job pauses: remembers where the head is to be when it goes on. To be called before it is moved.
     void pause();
+    /// What was read and not carried out is read anew when the job goes on at its place().
+    void drop_line();
     /// It goes on: the head goes back, and the file is opened anew.
     void resume(SimTime now);
     /// The place in the file was changed (M26).

@@ -66,10 +66,10 @@ class Motion {
     /// Starts the planner's next block, if none is under way: after stream(), and after advance() to a
     /// block's end.
     void start_stream(SimTime now);
-    /// Where in its file the move under way begins; `otherwise` when no move of a job is.
-    std::uint64_t streamed_byte(std::uint64_t otherwise) const {
-        return planner_.empty() ? otherwise : planner_.byte();
-    }
+    /// Where in its file the job's move under way begins; `otherwise` when no move of the job waits.
+    std::uint64_t streamed_byte(std::uint64_t otherwise) const { return planner_.byte(otherwise); }
+    /// A job begins, or goes on elsewhere in its file: the moves that wait are none of its.
+    void disown_streamed() { planner_.disown(); }
 
     /// Moves that the planner takes, one block always kept as Marlin does.
     std::size_t planner_free() const {

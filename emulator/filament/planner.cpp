@@ -141,6 +141,21 @@ void Planner::brake_backwards() {
     }
 }
 
+std::uint64_t Planner::byte(std::uint64_t otherwise) const {
+    for (std::size_t i = 0; i < count_; ++i) {
+        if (at(i).byte != no_byte) {
+            return at(i).byte;
+        }
+    }
+    return otherwise;
+}
+
+void Planner::disown() {
+    for (std::size_t i = 0; i < count_; ++i) {
+        at(i).byte = no_byte;
+    }
+}
+
 void Planner::start(SimTime now) {
     if (count_ == 0 || running()) {
         return;

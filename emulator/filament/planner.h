@@ -24,12 +24,15 @@ class Planner {
     /// the next move's.
     static constexpr double min_steps = 6;
 
+    /// Of a move that is not of the job: of a host, or of the job before.
+    static constexpr std::uint64_t no_byte = ~std::uint64_t{0};
+
     /// One straight move as its line asks for it.
     struct Move {
         AxisValues from{};    ///< mm; looked at only when nothing waits, else the last block's end counts
         AxisValues target{};  ///< mm
         double feed_mm_s = 0;
-        std::uint64_t byte = 0;  ///< where its line begins in the file: what to do again after a power loss
+        std::uint64_t byte = no_byte;  ///< where its line begins in the job's file: what to do again
     };
 
     explicit Planner(const Settings& settings) : settings_(&settings) {}
@@ -56,7 +59,11 @@ class Planner {
     /// Of the block under way or next; must not be empty().
     const AxisValues& target() const { return blocks_ring_[head_].target; }
     double feed_mm_s() const { return blocks_ring_[head_].nominal; }
-    std::uint64_t byte() const { return blocks_ring_[head_].byte; }
+    /// Where the job's first move that has not been made to its end begins in its file; `otherwise` when all
+    /// that waits is of others.
+    std::uint64_t byte(std::uint64_t otherwise) const;
+    /// What waits is of no job any more.
+    void disown();
     /// G92 while blocks wait: their targets are in the old coordinates.
     void shift(std::size_t axis, double mm);
 
@@ -68,9 +75,13 @@ class Planner {
         double acceleration = 0;  ///< mm/s^2 along the way
         double entry_sq = 0;     ///< highest speed at its start from which all behind it can be done, squared
         double junction_sq = 0;  ///< what the jerk allows at its start, squared
-        std::uint64_t byte = 0;
+        std::uint64_t byte = no_byte;
     };
 
+    const Block& at(std::size_t i) const {
+        const std::size_t place = head_ + i;
+        return blocks_ring_[place < capacity ? place : place - capacity];
+    }
     Block& at(std::size_t i) {
         const std::size_t place = head_ + i;
         return blocks_ring_[place < capacity ? place : place - capacity];

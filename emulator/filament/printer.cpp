@@ -134,6 +134,7 @@ void Printer::pause_now() {
     const std::uint64_t byte = runner.executed_byte();
     motion.abort();
     runner.pause();
+    runner.drop_line();
     job.set_byte(static_cast<double>(byte));
     job.pause(now());
     events.raise(event("job.paused"));

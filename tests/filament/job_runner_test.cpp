@@ -43,10 +43,11 @@ std::shared_ptr<const Config> config() {
 
 struct Machine {
     MemoryDisk disk;
-    Printer printer{config(), {&disk, nullptr, nullptr}, 1};
+    Printer printer;
     std::vector<EventId> raised;
 
-    explicit Machine(const std::string& content) {
+    explicit Machine(const std::string& content, const std::shared_ptr<const Config>& of = config())
+        : printer(of, {&disk, nullptr, nullptr}, 1) {
         disk.put("x.gcode", content);
         printer.power_on(SimTime{0});
         printer.select_file("x.gcode");
@@ -363,6 +364,38 @@ TEST_CASE("job: progress never goes back, and layers come in their order") {
         CHECK(progress == 100);
         CHECK(layer == 10);
     }
+}
+
+TEST_CASE("job: moves that waited before it began say nothing of its place") {
+    auto at_once = std::make_shared<Config>(*config());
+    at_once->job.pause_at_once = true;
+    Machine machine("M82\nG1 X20 Y20 F6000\nG1 X10 Y10\n", at_once);
+    machine.printer.stop_job();
+    machine.printer.motion.stream({200, 0, 0, 0}, 1, 77);  // of the job before, or of a host
+    machine.printer.select_file("x.gcode");
+    machine.printer.start_or_resume_job();
+    machine.run_until(1);
+    CHECK(machine.printer.runner.executed_byte() == 4);
+    machine.printer.pause_job();
+    CHECK(machine.printer.job.status() == JobStatus::paused);
+    CHECK(machine.printer.job.place() == 4);
+    machine.printer.start_or_resume_job();
+    machine.finish();
+    CHECK(machine.printer.runner.counts().moves == 4);  // two were thrown away with the pause
+}
+
+TEST_CASE("job: an arc that a pause cuts off is made anew, once, and what was held behind it") {
+    auto at_once = std::make_shared<Config>(*config());
+    at_once->job.pause_at_once = true;
+    Machine machine("G1 X50 Y50 F600\nG2 X50 Y50 I20 J0\nM400\nG1 X60\n", at_once);
+    machine.run_until(10);
+    machine.printer.pause_job();
+    CHECK(machine.printer.job.place() == 16);
+    machine.printer.start_or_resume_job();
+    machine.finish();
+    CHECK(machine.printer.runner.counts().moves == 4);
+    CHECK(machine.position(Axis::x) == 60);
+    CHECK(machine.position(Axis::y) == 50);
 }
 
 TEST_CASE("job: a file that vanishes pauses the job; back again, it goes on and every move is made") {

@@ -178,10 +178,22 @@ TEST_CASE("planner: G92 shifts what waits") {
     planner.start(SimTime{0});
     planner.shift(3, -6);
     CHECK(planner.target() == AxisValues{10, 0, 0, -1});
-    CHECK(planner.byte() == 1);
+    CHECK(planner.byte(9) == 1);
     planner.finish();
     CHECK(planner.target() == AxisValues{20, 0, 0, 0});
-    CHECK(planner.byte() == 2);
+    CHECK(planner.byte(9) == 2);
+}
+
+TEST_CASE("planner: the job's place is that of its first move, whoever's moves are before it") {
+    const Settings settings;
+    Planner planner(settings);
+    planner.add({{}, {10, 0, 0, 0}, 50});
+    CHECK(planner.byte(9) == 9);
+    planner.add({{}, {20, 0, 0, 0}, 50, 2});
+    planner.add({{}, {30, 0, 0, 0}, 50, 3});
+    CHECK(planner.byte(9) == 2);
+    planner.disown();
+    CHECK(planner.byte(9) == 9);
 }
 
 TEST_CASE("planner: a trapezoid from and to any speed") {
