@@ -260,6 +260,9 @@ void value_changes(World& w, Dice& dice) {
             w.misset();
         }
     }
+    if (field.path == "platform.zero") {
+        w.harmed();  // the platform's zero lies within what is printed, then
+    }
     const double share = static_cast<double>(dice.below(101)) / 100;
     if (field.type == behaviour::FieldType::text) {
         return;

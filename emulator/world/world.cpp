@@ -94,7 +94,7 @@ void World::on_received(SimTime now, Channel channel, std::string_view line, boa
         ++ledger_.damaged_taken;
     }
     if (channel == Channel::host) {
-        host_verdict_ = verdict;
+        first_verdict_ = first_verdict_.value_or(verdict);
     }
     std::array<char, protocol::max_line_bytes> room;
     const std::string_view kept = protocol::read_host_line(line, room, protocol::max_line_bytes);
@@ -295,10 +295,12 @@ void World::say(Channel channel, std::string_view bytes) {
 
 void World::command(std::string_view body) {
     const std::string line = fmt::format("N{} {}", ++line_number_, body);
+    first_verdict_.reset();
     say(Channel::host, fmt::format("{}*{}\n", line, checksum(line)));
-    // One that was not taken is not counted. Not that of whichever line spoke last.
+    // One that was not taken is not counted; what is too long, or has line ends in it, is several, and the
+    // number stands in the first. Not that of whichever line spoke last.
     const std::int64_t last = board_->machine().host_side().lines[machine::HostSide::usb_port].last;
-    ledger_.lost_counted += host_verdict_ != board::Verdict::accepted && last == line_number_ ? 1U : 0U;
+    ledger_.lost_counted += first_verdict_ != board::Verdict::accepted && last == line_number_ ? 1U : 0U;
     line_number_ = last;
 }
 

@@ -120,10 +120,10 @@ class World final : private board::Observer {
     Ledger ledger_;
     SimTime now_{0};
     SimTime past_{0};
-    std::optional<SimTime> told_to_jump_;                     ///< a line said that the job goes on elsewhere
-    board::Verdict host_verdict_ = board::Verdict::accepted;  ///< of the USB side's last line
-    std::int64_t line_number_ = 0;                            ///< of the USB side's commands
-    std::string heard_;                                       ///< on the line that is being asked
+    std::optional<SimTime> told_to_jump_;          ///< a line said that the job goes on elsewhere
+    std::optional<board::Verdict> first_verdict_;  ///< of the lines that a command of the host is
+    std::int64_t line_number_ = 0;                 ///< of the USB side's commands
+    std::string heard_;                            ///< on the line that is being asked
     board::Channel asked_ = board::Channel::main;
     std::uint64_t digest_ = 0xCBF29CE484222325U;
     std::uint64_t requests_ = 0;
