@@ -384,6 +384,12 @@ TEST_CASE("job: moves that waited before it began say nothing of its place") {
     CHECK(machine.printer.runner.counts().moves == 4);  // two were thrown away with the pause
 }
 
+TEST_CASE("job: an arc comes to its end, however much filament it asks for") {
+    Machine machine("G2 I5 J5 E12676795308826984226 F6000\nG1 X1\n");
+    CHECK(machine.finish() < 86'400);
+    CHECK(machine.position(Axis::x) == 1);
+}
+
 TEST_CASE("job: an arc that a pause cuts off is made anew, once, and what was held behind it") {
     auto at_once = std::make_shared<Config>(*config());
     at_once->job.pause_at_once = true;
