@@ -319,7 +319,7 @@ SimTime Board::advance(SimTime now) {
         const SimTime due = next_due();
         if (due > now) {
             time_ = std::max(time_, now);
-            return due;
+            return held_back_ ? time_ : due;
         }
         step(due);
     }
