@@ -195,6 +195,14 @@ std::string place_was_reached(const View& view) {
                : fmt::format("\"{}\" is to go on at byte {}, where it never was", place->path, place->byte);
 }
 
+std::string over_is_over(const View& view) {
+    const machine::Machine& machine = view.board.machine();
+    const std::optional<Place> place = saved_place(machine);
+    return view.ledger.job_over && !machine.job.active() && place
+               ? fmt::format("\"{}\" has ended, and is to go on at byte {}", place->path, place->byte)
+               : "";
+}
+
 std::string every_line_answers(const View& view) {
     return view.ledger.unanswered.empty() ? "" : fmt::format("{}", fmt::join(view.ledger.unanswered, "; "));
 }
@@ -328,6 +336,8 @@ constexpr std::array table{
               "A board that is switched on goes by the settings that were saved.", saved_is_in_force},
     Invariant{Moment::power_cut, "place was reached",
               "After a power cut a job goes on at a place that it really had reached.", place_was_reached},
+    Invariant{Moment::step, "over is over", "A job that has ended is not to be taken up again.",
+              over_is_over},
     Invariant{Moment::peace, "files are whole after all", "The same once all troubles are over.",
               files_are_whole},
     Invariant{Moment::peace, "every line answers",

@@ -39,6 +39,7 @@ struct Ledger {
     std::uint64_t job_seen = 0;
     std::uint64_t job_executed = 0;  ///< where it was last executed
     bool paused = false;             ///< since the last step
+    bool job_over = false;           ///< the last one came to its end, or was ended
 
     PrintWatch prints;
     std::optional<Tally> proof;  ///< what the print at the end should come to; nothing: there was none

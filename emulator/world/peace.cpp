@@ -115,12 +115,13 @@ void World::hurry() {
     pass(patience);
 }
 
-/// By the USB side, each with its number and checksum, and where they lead: some by a distance and some to a
-/// place, so that their order tells. A patient host waits for its acknowledgements, a hasty one says what the
-/// board takes, and again what it did not take.
+/// Many short moves by the USB side, each with its number and checksum, and where they lead: of X all by a
+/// distance, so that each one counts; of Y some to a place, so that their order does. A patient host waits
+/// for its acknowledgements, a hasty one says what the board takes, and again what it did not take.
 void World::walk(int moves, bool hasty) {
     constexpr double corner = 50;
     constexpr int most_waits = 20'000;
+    const int decimals = hasty ? 8 : 2;  // so long that queues are full of bytes before they are of lines
     const auto& probe = cast_.probes[static_cast<std::size_t>(Channel::host)];
     if (!probe || !number_of(board_->machine(), "position.x") || board_->machine().job.active()) {
         return;
@@ -135,21 +136,24 @@ void World::walk(int moves, bool hasty) {
     int waits = 0;
     const auto insist = [&](std::string_view body) {
         while (!command(body) && ++waits < most_waits) {
-            pass(std::chrono::milliseconds(dice.below(2000)));
+            pass(std::chrono::milliseconds(dice.below(100)));
         }
     };
     Ledger::Walk walk;
     walk.asked_mm = start;
     for (int i = 0; i < moves; ++i) {
-        const bool to_place = dice.below(6) == 0;
-        std::array<double, 2> by{static_cast<double>(dice.below(100)) / 100,
-                                 static_cast<double>(dice.below(100)) / 100};
-        for (std::size_t axis = 0; axis < by.size(); ++axis) {
-            walk.asked_mm[axis] = by[axis] + (to_place ? start[axis] : walk.asked_mm[axis]);
-            by[axis] += to_place ? corner : 0;
+        const double by_x = static_cast<double>(dice.below(101)) / 100 - 0.5;
+        const double by_y = static_cast<double>(dice.below(100)) / 100;
+        if (dice.below(6) == 0) {
+            walk.asked_mm[1] = start[1] + by_y;
+            insist("G90");
+            insist(fmt::format("G1 Y{:.{}f} F3000", corner + by_y, decimals));
+        } else {
+            walk.asked_mm[0] += by_x;
+            walk.asked_mm[1] += by_y;
+            insist("G91");
+            insist(fmt::format("G1 X{:.{}f} Y{:.{}f} F3000", by_x, decimals, by_y, decimals));
         }
-        insist(to_place ? "G90" : "G91");
-        insist(fmt::format("G1 X{:.2f} Y{:.2f} F3000", by[0], by[1]));
         if (!hasty) {
             let_most_be_acknowledged();
             pass(std::chrono::milliseconds(dice.below(200)));

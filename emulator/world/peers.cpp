@@ -170,7 +170,9 @@ void network_uploads(World& w, Dice& dice) {
     const std::size_t most = 1 + dice.below(protocol::max_chunk_payload);
     const std::uint64_t given_up_at = dice.below(6) == 0 ? dice.below(content.size() + 1) : content.size();
     w.will_be(name, content);
-    const auto taken = [](const std::string& answer) { return answer.find("ok") != std::string::npos; };
+    const auto taken = [](const std::string& answer) {
+        return answer.find("ok") != std::string::npos && answer.find("Error") == std::string::npos;
+    };
     bool goes_on = taken(w.told(peer, "M28 " + name));
     std::array<char, protocol::max_chunk_bytes> room;
     int odd = 0;

@@ -65,7 +65,7 @@ void World::make_board() {
     }
     eeprom_.power_on();
     ledger_.lines_heard = ledger_.lines_said = 0;
-    ledger_.harmed = false;
+    ledger_.harmed = ledger_.job_over = false;
     ledger_.before = now_;
     board_->power_on(now_);
     ledger_.eeprom_at_first = board_->machine().eeprom_image.text();
@@ -155,6 +155,11 @@ void World::on_event(SimTime now, machine::EventId event) {
         new_job();
     } else if (event->name == "job.paused") {
         ledger_.paused = true;
+    }
+    if (event->name == "job.finished" || event->name == "job.stopped" || event->name == "job.replaced") {
+        ledger_.job_over = true;
+    } else if (event->name == "job.started") {
+        ledger_.job_over = false;
     }
     ledger_.prints.see(event, board_->machine());
 }
