@@ -50,6 +50,7 @@ void read_line_rules(Compiler& compiler, const Json& node, LineRules& out) {
 /// The pages' paths, and for each the nearest page above it.
 void read_page_paths(Compiler& compiler, const Json& node, const Json& boxes) {
     ScreenProfile& profile = compiler.profile;
+    const ObjectReader pages(node, "/pages", compiler.findings);
     if (!node.is_object()) {
         return;
     }
