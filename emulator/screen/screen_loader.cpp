@@ -106,7 +106,7 @@ void spread_buttons(Compiler& compiler, const Json& pages) {
         if (const auto list = pages[page.path].find("without"); list != pages[page.path].end()) {
             for_each_item(
                 *list, "/pages/" + page.path + "/without", [&](const Json& item, const std::string& where) {
-                    without.push_back(item.is_string() ? item.get<std::string>() : "");
+                    without.push_back(item.get<std::string>());
                     if (std::find(names.begin(), names.end(), without.back()) == names.end()) {
                         compiler.findings.add(
                             where, fmt::format("no button \"{}\" stands everywhere", without.back()),
