@@ -1,4 +1,5 @@
-// What a person's keys do at the terminal where there is little or nothing to press, and what programs are told.
+// What a person's keys do at the terminal where there is little or nothing to press, and what programs are
+// told.
 
 #include <doctest/doctest.h>
 
@@ -79,9 +80,10 @@ std::string last_line(const Console& console) {
 TEST_CASE("a page without buttons: no key presses anything, q and Q still quit") {
     Console console("none");
     console.show(page_of({}));
-    for (const Key::Kind kind : {Key::Kind::tab, Key::Kind::back_tab, Key::Kind::up, Key::Kind::down, Key::Kind::left,
-                                 Key::Kind::right, Key::Kind::enter, Key::Kind::escape, Key::Kind::backspace,
-                                 Key::Kind::click, Key::Kind::page_up, Key::Kind::page_down}) {
+    for (const Key::Kind kind :
+         {Key::Kind::tab, Key::Kind::back_tab, Key::Kind::up, Key::Kind::down, Key::Kind::left,
+          Key::Kind::right, Key::Kind::enter, Key::Kind::escape, Key::Kind::backspace, Key::Kind::click,
+          Key::Kind::page_up, Key::Kind::page_down}) {
         const screen::Reaction reaction = console.press(key(kind));
         CHECK_FALSE(reaction.touch.has_value());
         CHECK_FALSE(reaction.quit);
@@ -94,7 +96,8 @@ TEST_CASE("a page without buttons: no key presses anything, q and Q still quit")
     CHECK_FALSE(console.press(letter('x')).quit);
 }
 
-TEST_CASE("the blank presses what has the focus; the focus stays with its button and row while the page does") {
+TEST_CASE(
+    "the blank presses what has the focus; the focus stays with its button and row while the page does") {
     Console console("rows");
     console.show(page_of({button(4, 1, "one"), button(4, 2, "two"), button(7, 0, "9")}));
     console.press(key(Key::Kind::tab));
@@ -108,7 +111,9 @@ TEST_CASE("the blank presses what has the focus; the focus stays with its button
     CHECK_FALSE(console.press(letter('~')).touch.has_value());
 }
 
-TEST_CASE("numbers with sign and point are typed; two points are no number; a button that goes takes its entry along") {
+TEST_CASE(
+    "numbers with sign and point are typed; two points are no number; a button that goes takes its entry "
+    "along") {
     Console console("numbers");
     ButtonView typed = button(3, 0, "Height");
     typed.input.emplace();
@@ -181,7 +186,8 @@ TEST_CASE("keys of frames: bounds, texts and lists that are too long, what stand
     using V = screen::Verdict;
     for (const Row& row : std::vector<Row>{
              {"L1 N1.5 T:abc;", V::ok, "", "t", "abc"},
-             {"L1 N1.5 T:abcde;", V::cut, "a text of 5 characters behind \"T:\", there is room for 4", "t", "abcd"},
+             {"L1 N1.5 T:abcde;", V::cut, "a text of 5 characters behind \"T:\", there is room for 4", "t",
+              "abcd"},
              {"L1 N1.5 T:abc", V::rest_dropped, "no \";\" behind \"T:\"", "t", ""},
              {"L2 +abcdefg;", V::cut, "a name of 7 characters, there is room for 4", "l", "abcd\n"},
              {"L2 +abc", V::ok, "", "l", "abc\n"},
@@ -208,7 +214,9 @@ TEST_CASE("keys of frames: bounds, texts and lists that are too long, what stand
 
 TEST_CASE("programs are told units, words, what stays shut, bounds, and what was wrong") {
     Bench bench(screen_from(told_screen));
-    const auto page = [&] { return behaviour::Json::parse(screen::page_json(bench->standpoint(), {}, bench->findings())); };
+    const auto page = [&] {
+        return behaviour::Json::parse(screen::page_json(bench->standpoint(), {}, bench->findings()));
+    };
     behaviour::Json told = page();
     CHECK(told["values"]["n"]["unit"] == "mm");
     CHECK(told["values"]["n"]["value"] == 0);

@@ -1,5 +1,5 @@
-// The little language of screens at its edges: numbers as the C library reads them, formats, conditions and the
-// sentences about them.
+// The little language of screens at its edges: numbers as the C library reads them, formats, conditions and
+// the sentences about them.
 
 #include <doctest/doctest.h>
 
@@ -76,43 +76,45 @@ TEST_CASE("numbers on the line are read as strtol and strtof read them") {
     };
     const std::string zeros(400, '0');
     for (const Row& row : std::vector<Row>{{"", 0, 0},
-                                                            {" \t\v-12x", -12, 6},
-                                                            {"\x0e" "5", 0, 0},
-                                                            {"+7", 7, 2},
-                                                            {"+-7", 0, 0},
-                                                            {"-", 0, 0},
-                                                            {"2147483648", 2147483647, 10},
-                                                            {"-99999999999999999999", -2147483648.0, 21},
-                                                            {"/:", 0, 0}}) {
+                                           {" \t\v-12x", -12, 6},
+                                           {"\x0e"
+                                            "5",
+                                            0, 0},
+                                           {"+7", 7, 2},
+                                           {"+-7", 0, 0},
+                                           {"-", 0, 0},
+                                           {"2147483648", 2147483647, 10},
+                                           {"-99999999999999999999", -2147483648.0, 21},
+                                           {"/:", 0, 0}}) {
         CAPTURE(row.text);
         CHECK(screen::read_integer(row.text).value == row.value);
         CHECK(screen::read_integer(row.text).used == row.used);
     }
     for (const Row& row : std::vector<Row>{{"", 0, 0},
-                                                            {"--1", 0, 0},
-                                                            {"-+1", 0, 0},
-                                                            {"x", 0, 0},
-                                                            {"-1.5e1z", -15, 6},
-                                                            {"0XA", 10, 3},
-                                                            {"0x1.8p1", 3, 7},
-                                                            {"0x", 0, 1},
-                                                            {"0y", 0, 1},
-                                                            {"-0xg", 0, 2},
-                                                            {"1e-400", 0, 6},
-                                                            {"1E-400", 0, 6},
-                                                            {"1e-99999999999999999999", 0, 23},
-                                                            {"1e400", inf, 5},
-                                                            {"-1e+400", -inf, 7},
-                                                            {"1e99999999999999999999", inf, 22},
-                                                            {"0.1e999", inf, 7},
-                                                            {".1e999", inf, 6},
-                                                            {"0." + zeros + "1", 0, 403},
-                                                            {"1" + zeros, inf, 401},
-                                                            {"1" + zeros + "e-2", inf, 404},
-                                                            {"0x1p9999", inf, 8},
-                                                            {"0x1p-9999", 0, 9},
-                                                            {"1e39", inf, 4},
-                                                            {"infinity", inf, 8}}) {
+                                           {"--1", 0, 0},
+                                           {"-+1", 0, 0},
+                                           {"x", 0, 0},
+                                           {"-1.5e1z", -15, 6},
+                                           {"0XA", 10, 3},
+                                           {"0x1.8p1", 3, 7},
+                                           {"0x", 0, 1},
+                                           {"0y", 0, 1},
+                                           {"-0xg", 0, 2},
+                                           {"1e-400", 0, 6},
+                                           {"1E-400", 0, 6},
+                                           {"1e-99999999999999999999", 0, 23},
+                                           {"1e400", inf, 5},
+                                           {"-1e+400", -inf, 7},
+                                           {"1e99999999999999999999", inf, 22},
+                                           {"0.1e999", inf, 7},
+                                           {".1e999", inf, 6},
+                                           {"0." + zeros + "1", 0, 403},
+                                           {"1" + zeros, inf, 401},
+                                           {"1" + zeros + "e-2", inf, 404},
+                                           {"0x1p9999", inf, 8},
+                                           {"0x1p-9999", 0, 9},
+                                           {"1e39", inf, 4},
+                                           {"infinity", inf, 8}}) {
         CAPTURE(row.text);
         CHECK(static_cast<double>(screen::read_real(row.text).value) == row.value);
         CHECK(screen::read_real(row.text).used == row.used);
@@ -125,7 +127,8 @@ TEST_CASE("expressions at their bounds") {
     of.values[0].number = 5;
     CHECK(of.number("mod(n, 0)") == 0);
     CHECK(of.number("mod(-1, 3)") == 2);
-    CHECK(of.number("days(2, 4) + days(2, 5) + days(4, 1) + days(6, 1) + days(9, 1) + days(11, 1) + days(1, 1)") ==
+    CHECK(of.number(
+              "days(2, 4) + days(2, 5) + days(4, 1) + days(6, 1) + days(9, 1) + days(11, 1) + days(1, 1)") ==
           29 + 28 + 4 * 30 + 31);
     CHECK(of.number("row * 100 + input + l") == 209);
     CHECK(Expression("n + l + 1", of.table, {}).values() == std::vector<std::size_t>{0, 2});
@@ -134,7 +137,8 @@ TEST_CASE("expressions at their bounds") {
     CHECK(of.fault("{n + [}") == "in \"n + [\": expected a number or a name before \"[\"");
     CHECK(of.fault("{Nozzle}") == "in \"Nozzle\": expected a number or a name before \"Nozzle\"");
     CHECK(of.fault("{row}", {}) == "in \"row\": \"row\" is known only to a button with \"rows\"");
-    CHECK(of.fault("{row.text}", {}) == "in \"row.text\": \"row.text\" is known only to a button with \"rows\"");
+    CHECK(of.fault("{row.text}", {}) ==
+          "in \"row.text\": \"row.text\" is known only to a button with \"rows\"");
     CHECK(of.fault("{input}", {}) == "in \"input\": \"input\" is known only to a button with \"input\"");
     std::string steps = "1";
     for (int i = 0; i < 31; ++i)
@@ -161,14 +165,15 @@ TEST_CASE("formats: each that there is, and what is like one") {
     CHECK(of.text("{n} {n:d} {n:.1f}") == "-inf 0 -inf");
     of.values[0].number = -1e300;
     CHECK(of.text("{n:d}") == "-1000000000000000");
-    for (const char* bad : {"n:.7f", "n:.af", "n:./f", "n:.2d", "n:x2f", "n:1d", "n:02f", "n:0xd", "n:0/d", "n:123d",
-                            "n:stem", "n + 1:name"}) {
+    for (const char* bad : {"n:.7f", "n:.af", "n:./f", "n:.2d", "n:x2f", "n:1d", "n:02f", "n:0xd", "n:0/d",
+                            "n:123d", "n:stem", "n + 1:name"}) {
         CAPTURE(bad);
         CHECK(of.fault("{" + std::string(bad) + "}").find("unknown format") == 0);
     }
     for (const char* bad : {"t:hms", "t:1", "t:+2", "t:1-2", "t:1+", "t:1+x", "t:1+2x", "t:1234+1"}) {
         CAPTURE(bad);
-        CHECK(of.fault("{" + std::string(bad) + "}").find("is a text; expected no format") != std::string::npos);
+        CHECK(of.fault("{" + std::string(bad) + "}").find("is a text; expected no format") !=
+              std::string::npos);
     }
     CHECK(of.fault("{n") == "a brace without its partner in \"{n\"");
 }
@@ -199,12 +204,15 @@ TEST_CASE("conditions hold, and say what they want and what is") {
              {"n", R"({"max": 9, "min": 1})", true, "n is 1 to 9", "5"},
              {"t", R"("part.gcode")", true, "t is \"part.gcode\"", "\"part.gcode\""},
              {"t", R"({"not": ["a", "b"]})", true, "t is not \"a\", \"b\"", "\"part.gcode\""},
-             {"t", R"({"ends_with": [".gco", ".gcode"]})", true, "t ends with \".gco\", \".gcode\"", "\"part.gcode\""},
-             {"t", R"({"ends_not_with": ".gcode"})", false, "t does not end with \".gcode\"", "\"part.gcode\""},
+             {"t", R"({"ends_with": [".gco", ".gcode"]})", true, "t ends with \".gco\", \".gcode\"",
+              "\"part.gcode\""},
+             {"t", R"({"ends_not_with": ".gcode"})", false, "t does not end with \".gcode\"",
+              "\"part.gcode\""},
              {"t", R"({"starts_with": "par"})", true, "t starts with \"par\"", "\"part.gcode\""},
              {"t", R"({"starts_not_with": "par"})", false, "t does not start with \"par\"", "\"part.gcode\""},
              {"row.text", R"("second")", true, "row.text is \"second\"", "\"second\""},
-             {"row.date", R"({"starts_with": "2021"})", false, "row.date starts with \"2021\"", "\"2020-09-08\""}}) {
+             {"row.date", R"({"starts_with": "2021"})", false, "row.date starts with \"2021\"",
+              "\"2020-09-08\""}}) {
         CAPTURE(row.left);
         CAPTURE(row.right);
         const Condition one = of.condition(row.left, row.right);

@@ -1,7 +1,7 @@
 #pragma once
 
-// A right text and a table of what makes it wrong: each row is put into it, and what is told must be the row's
-// sentences, each with its place, and no others.
+// A right text and a table of what makes it wrong: each row is put into it, and what is told must be the
+// row's sentences, each with its place, and no others.
 
 #include <doctest/doctest.h>
 
@@ -14,9 +14,9 @@
 
 namespace fauxboard::testing {
 
-/// `table` is a file below tests: [{ "at": POINTER, "is": VALUE, "says": [SENTENCE, ...] }, ...]. Without "is"
-/// what stands there is taken out; "several": 9 makes an array of nine times that, "named": 9 an object with the
-/// names "0" to "8". "also" puts in more: { POINTER: VALUE }. A row without sentences is right.
+/// `table` is a file below tests: [{ "at": POINTER, "is": VALUE, "says": [SENTENCE, ...] }, ...]. Without
+/// "is" what stands there is taken out; "several": 9 makes an array of nine times that, "named": 9 an object
+/// with the names "0" to "8". "also" puts in more: { POINTER: VALUE }. A row without sentences is right.
 inline void check_wrong_values(const std::string& table, std::string_view right,
                                const std::function<std::string(std::string_view)>& refusal) {
     using Json = nlohmann::ordered_json;
