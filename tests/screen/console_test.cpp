@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "emulator/screen/console.h"
+#include "emulator/screen/scene.h"
 #include "emulator/screen/screen_json.h"
 #include "tests/screen/harness.h"
 
@@ -246,6 +247,16 @@ TEST_CASE("programs are told units, words, what stays shut, bounds, and what was
     CHECK_FALSE(bench->number("t").has_value());
     CHECK_FALSE(bench->number("nothing").has_value());
     CHECK(bench->number("own") == 0);
+}
+
+TEST_CASE("rows and numbers to type stand among the controls that programs are told of") {
+    Bench bench(screen_from(told_screen));
+    bench.say_raw("L2 +row");
+    const behaviour::Json told = screen::page_json(screen::scene_of(bench->standpoint()));
+    CHECK(told["controls"][1]["name"] == "Row 1");
+    CHECK(told["controls"][1]["label"] == "row");
+    CHECK(told["controls"][2]["input"] == behaviour::Json{{"min", -2}, {"max", 2.5}});
+    CHECK_FALSE(told["controls"][0].contains("input"));
 }
 
 TEST_CASE("paths that may be several, rows that are none, and rows and numbers given apart") {
