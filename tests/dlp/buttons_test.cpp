@@ -226,6 +226,50 @@ TEST_CASE("a stick that goes on from homing: the first layer's plan cannot be re
     CHECK(bench.count(Event::print_exposed) == 2);
 }
 
+TEST_CASE("a file for another panel, by its width or by its height, is told with its size") {
+    for (const auto& [width, height] :
+         {std::pair{panel_columns + 4, panel_lines}, {panel_columns, panel_lines + 1}}) {
+        testing::ResinFile wishes;
+        wishes.kind = testing::ResinFile::Kind::cbddlp;
+        wishes.width = width;
+        wishes.height = height;
+        wishes.layers = 1;
+        wishes.previews = false;
+        wishes.picture = [](std::uint32_t, std::uint32_t, std::uint32_t) { return std::uint8_t{0}; };
+        MemoryStick stick;
+        stick.files.emplace_back("other.photon", testing::make_resin_file(wishes).bytes);
+        DlpBench bench({}, std::move(stick));
+        REQUIRE(bench.run_to(Event::board_ready, 3));
+        REQUIRE(bench.board.view("other.photon"));
+        CHECK(bench.board.viewed().problem == "Its pictures have " + std::to_string(width) + " x " +
+                                                  std::to_string(height) +
+                                                  " pixels; this panel has 1440 x 2560.");
+        CHECK_FALSE(bench.board.print_file("other.photon", bench.now));
+    }
+}
+
+TEST_CASE("the lamp lights for a time, and for no time not at all; asleep twice is asleep once") {
+    Lamp lamp;
+    lamp.power_on();
+    lamp.light_for(ms(0), ms(5));
+    CHECK_FALSE(lamp.on());
+    CHECK_FALSE(lamp.counting());
+    CHECK(lamp.next_event() == never);
+    lamp.light_for(ms(10), ms(5));
+    CHECK(lamp.on());
+    lamp.light_for(ms(0), ms(7));
+    CHECK_FALSE(lamp.on());
+    CHECK(lamp.last() == ms(2));
+    Ready bench;
+    bench.board.doze(bench.now);
+    bench.board.doze(bench.now);
+    CHECK(bench.board.dozing());
+    CHECK_FALSE(bench.board.panel.powered());
+    bench.board.wake(bench.now);
+    CHECK_FALSE(bench.board.dozing());
+    CHECK(bench.count(Event::files_changed) == 1);
+}
+
 TEST_CASE("previews: the small one without a large one, none without any") {
     testing::ResinFile wishes;
     wishes.kind = testing::ResinFile::Kind::cbddlp;
