@@ -133,8 +133,8 @@ void Loader::load_variables(const Json& node, const std::string& pointer) {
 }
 
 void Loader::name_frames(const Json& node, const std::string& pointer) {
+    const ObjectReader all(node, pointer, findings_);
     if (!node.is_object()) {
-        findings_.add(pointer, found(node) + "; expected an object of frames");
         return;
     }
     for (const auto& [name, value] : node.items()) {
@@ -309,6 +309,9 @@ std::shared_ptr<const Profile> Loader::load() {
     root.required("frames");
     section("frames", [&](const Json& n, const std::string& p) { name_frames(n, p); });
     section("frames", [&](const Json& n, const std::string& p) {
+        if (!n.is_object()) {
+            return;  // told already
+        }
         ObjectReader frames(n, p, findings_);
         const bool commands = profile_->line.framing == Framing::commands;
         const FrameContext context{n,

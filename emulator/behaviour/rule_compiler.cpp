@@ -92,20 +92,29 @@ void RuleCompiler::condition(const std::string& left, const Json& node, const st
         return;
     }
     if (node.is_object()) {
-        condition_tests(base, node, pointer, out);
+        condition_tests(base, left, node, pointer, out);
         return;
     }
     base.right.emplace_back();
-    if (!literal(node, pointer, base.right[0])) {
-        return;
-    }
-    if (base.left.is_text() != base.right[0].is_text()) {
-        findings_.add(pointer,
-                      found(node) + "; \"" + left + "\" is a " + (base.left.is_text() ? "text" : "number"));
+    if (!compared(base.left, left, node, pointer, base.right[0])) {
         return;
     }
     check_reach(base.left, base.right[0], base.right[0], pointer);
     out.push_back(std::move(base));
+}
+
+/// What the left side is compared with: a text with a text, a number with a number.
+bool RuleCompiler::compared(const Operand& left, const std::string& name, const Json& node,
+                            const std::string& pointer, Operand& out) {
+    if (!literal(node, pointer, out)) {
+        return false;
+    }
+    if (left.is_text() != out.is_text()) {
+        findings_.add(pointer,
+                      found(node) + "; \"" + name + "\" is a " + (left.is_text() ? "text" : "number"));
+        return false;
+    }
+    return true;
 }
 
 /// A setting that is never so high, or never so low. What is measured has no bounds.
@@ -123,29 +132,37 @@ void RuleCompiler::check_reach(const Operand& left, const Operand& min, const Op
     }
 }
 
-void RuleCompiler::condition_tests(const Condition& base, const Json& node, const std::string& pointer,
-                                   std::vector<Condition>& out) {
+void RuleCompiler::condition_range(const Condition& base, const std::string& left, ObjectReader& reader,
+                                   const std::string& pointer, std::vector<Condition>& out) {
+    if (base.left.is_text()) {
+        findings_.add(pointer, "\"" + left + "\" is a text, which min and max do not fit");
+    }
+    Condition c = base;
+    c.test = Condition::Test::range;
+    c.right.resize(2);
+    for (const auto& [key, side] : {std::pair{"min", std::size_t{0}}, std::pair{"max", std::size_t{1}}}) {
+        if (reader.has(key)) {
+            double bound = 0;
+            reader.number(key, bound, -1e15, 1e15);
+            c.right[side] = Operand::literal(bound);
+        }
+    }
+    const Operand& min = c.right[0];
+    const Operand& max = c.right[1];
+    if (min.kind != Operand::Kind::none && max.kind != Operand::Kind::none && min.number > max.number) {
+        findings_.add(pointer,
+                      fmt::format("min {} is above max {}: this never holds", min.number, max.number));
+    } else {
+        check_reach(base.left, min, max, pointer);
+    }
+    out.push_back(std::move(c));
+}
+
+void RuleCompiler::condition_tests(const Condition& base, const std::string& left, const Json& node,
+                                   const std::string& pointer, std::vector<Condition>& out) {
     ObjectReader reader(node, pointer, findings_);
     if (reader.has("min") || reader.has("max")) {
-        Condition c = base;
-        c.test = Condition::Test::range;
-        c.right.resize(2);
-        for (const auto& [key, side] : {std::pair{"min", std::size_t{0}}, std::pair{"max", std::size_t{1}}}) {
-            if (reader.has(key)) {
-                double bound = 0;
-                reader.number(key, bound, -1e15, 1e15);
-                c.right[side] = Operand::literal(bound);
-            }
-        }
-        const Operand& min = c.right[0];
-        const Operand& max = c.right[1];
-        if (min.kind != Operand::Kind::none && max.kind != Operand::Kind::none && min.number > max.number) {
-            findings_.add(pointer,
-                          fmt::format("min {} is above max {}: this never holds", min.number, max.number));
-        } else {
-            check_reach(base.left, min, max, pointer);
-        }
-        out.push_back(std::move(c));
+        condition_range(base, left, reader, pointer, out);
     }
     if (reader.has("present")) {
         bool present = true;
@@ -158,7 +175,7 @@ void RuleCompiler::condition_tests(const Condition& base, const Json& node, cons
         Condition c = base;
         c.test = Condition::Test::not_equal;
         c.right.emplace_back();
-        if (literal(*item, reader.pointer("not"), c.right[0])) {
+        if (compared(base.left, left, *item, reader.pointer("not"), c.right[0])) {
             out.push_back(std::move(c));
         }
     }
@@ -167,7 +184,7 @@ void RuleCompiler::condition_tests(const Condition& base, const Json& node, cons
         c.test = Condition::Test::one_of;
         each(*list, reader.pointer("in"), [&](const Json& item, const std::string& at) {
             c.right.emplace_back();
-            literal(item, at, c.right.back());
+            compared(base.left, left, item, at, c.right.back());
         });
         if (c.right.empty()) {
             findings_.add(reader.pointer("in"), "found an empty list: this never holds");
@@ -177,6 +194,10 @@ void RuleCompiler::condition_tests(const Condition& base, const Json& node, cons
     if (reader.has("starts_with")) {
         std::string prefix;
         reader.text("starts_with", prefix);
+        if (!base.left.is_text()) {
+            findings_.add(reader.pointer("starts_with"),
+                          "\"" + left + "\" is a number, which starts with nothing");
+        }
         Condition c = base;
         c.test = Condition::Test::starts_with;
         c.right.push_back(Operand::literal(prefix));

@@ -34,8 +34,10 @@ class RuleCompiler {
   private:
     void condition(const std::string& reference, const Json& node, const std::string& pointer,
                    std::vector<Condition>& out);
-    void condition_tests(const Condition& left, const Json& node, const std::string& pointer,
-                         std::vector<Condition>& out);
+    void condition_tests(const Condition& base, const std::string& left, const Json& node,
+                         const std::string& pointer, std::vector<Condition>& out);
+    void condition_range(const Condition& base, const std::string& left, ObjectReader& reader,
+                         const std::string& pointer, std::vector<Condition>& out);
     void call(const std::string& name, const Json* args, const std::string& pointer,
               std::vector<ActionCall>& out);
     void argument(const ArgInfo& info, const Json& node, const std::string& pointer, Operand& out);
@@ -44,6 +46,8 @@ class RuleCompiler {
     Operand reference(std::string_view text, const std::string& pointer);
     Operand value(const Json& node, const std::string& pointer);
     bool literal(const Json& node, const std::string& pointer, Operand& out);
+    bool compared(const Operand& left, const std::string& name, const Json& node, const std::string& pointer,
+                  Operand& out);
     Send send(const Json& node, const std::string& pointer);
     Rule rule(const Json& node, const std::string& pointer);
 

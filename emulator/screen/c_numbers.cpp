@@ -25,6 +25,23 @@ std::size_t lead(std::string_view text, bool& negative) {
     return at + (at < text.size() && (text[at] == '-' || text[at] == '+') ? 1 : 0);
 }
 
+/// A number beyond all that a double holds: whether it lies between 0 and the least of them.
+bool too_small(std::string_view number, bool hex) {
+    const std::size_t mark = std::min(number.find_first_of(hex ? "pP" : "eE"), number.size());
+    std::string_view exponent_text = number.substr(std::min(mark + 1, number.size()));
+    const bool minus = exponent_text.starts_with('-');
+    exponent_text.remove_prefix(minus || exponent_text.starts_with('+') ? 1 : 0);
+    constexpr std::int64_t endless = 1'000'000'000;
+    std::int64_t exponent = 0;
+    const auto read =
+        std::from_chars(exponent_text.data(), exponent_text.data() + exponent_text.size(), exponent);
+    exponent = read.ec == std::errc::result_out_of_range ? endless : std::min(exponent, endless);
+    const std::string_view digits = number.substr(0, mark);
+    const auto dot = static_cast<std::int64_t>(std::min(digits.find('.'), digits.size()));
+    const auto first = static_cast<std::int64_t>(std::min(digits.find_first_not_of("0."), digits.size()));
+    return (dot - first) * (hex ? 4 : 1) + (minus ? -exponent : exponent) < 0;
+}
+
 }  // namespace
 
 ReadInteger read_integer(std::string_view text) {
@@ -65,9 +82,7 @@ ReadReal read_real(std::string_view text) {
         return {};
     } else if (read.ec == std::errc::result_out_of_range) {
         const std::string_view number(begin, static_cast<std::size_t>(read.ptr - begin));
-        const bool tiny = number.find("e-") != std::string_view::npos ||
-                          number.find("E-") != std::string_view::npos || number.starts_with("0.");
-        value = tiny ? 0 : std::numeric_limits<double>::infinity();
+        value = too_small(number, prefix != 0) ? 0 : std::numeric_limits<double>::infinity();
     }
     constexpr double most = std::numeric_limits<float>::max();
     const auto single = value > most ? std::numeric_limits<float>::infinity() : static_cast<float>(value);

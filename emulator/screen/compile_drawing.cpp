@@ -85,11 +85,9 @@ Place Compiler::place(ObjectReader& reader, Allowed allowed) {
 
 Words Compiler::words(std::string_view source, const std::string& pointer, Allowed allowed) {
     Words out;
-    const std::size_t languages = profile.display ? profile.display->languages.size() : 1;
-    for (std::size_t language = 0; language < std::max<std::size_t>(languages, 1); ++language) {
-        const Dictionary* dictionary = language == 0 || language >= profile.display->dictionaries.size()
-                                           ? nullptr
-                                           : &profile.display->dictionaries[language];
+    const std::vector<Dictionary>& dictionaries = profile.display->dictionaries;  // one for each language
+    for (std::size_t language = 0; language < dictionaries.size(); ++language) {
+        const Dictionary* dictionary = language == 0 ? nullptr : &dictionaries[language];
         std::string_view text = source;
         if (dictionary != nullptr) {
             if (const auto hit = dictionary->find(source); hit != dictionary->end()) {

@@ -276,16 +276,18 @@ void Compiler::frames(const Json& node) {
         return;
     }
     for (const auto& [name, rule] : node.items()) {
+        if (name.empty()) {
+            findings.add(reader.pointer(name), "expected a code such as L3, or the words a line starts with");
+            continue;
+        }
         unsigned code = 0;
         const char* end = name.data() + name.size();
         const auto read = std::from_chars(name.data() + 1, end, code);
-        if (name.size() > 1 && name[0] == 'L' && read.ec == std::errc{} && read.ptr == end) {
+        if (name[0] == 'L' && read.ec == std::errc{} && read.ptr == end) {
             if (code > 255) {
                 findings.add(reader.pointer(name), fmt::format("found L{}; expected L0 to L255", code));
             }
             profile.codes[code & 0xFFU] = frame(name, rule, reader.pointer(name));
-        } else if (name.empty()) {
-            findings.add(reader.pointer(name), "expected a code such as L3, or the words a line starts with");
         } else {
             profile.words.push_back(
                 frame(behaviour::to_wire(name).value_or(name), rule, reader.pointer(name)));

@@ -113,9 +113,6 @@ void Compiler::page(std::size_t id, const Json& node, const std::string& pointer
 
 void Compiler::pages(const Json& node) {
     ObjectReader reader(node, "/pages", findings);
-    if (!node.is_object()) {
-        return;
-    }
     for (std::size_t id = 0; id < profile.pages.size(); ++id) {
         if (profile.pages[id].face.kind != PageFace::Kind::box) {
             page(id, node[profile.pages[id].path], reader.pointer(profile.pages[id].path));

@@ -13,6 +13,10 @@ namespace {
 constexpr std::size_t most_talk = 500;
 constexpr std::size_t most_typed = 12;
 
+bool quits(char key) {
+    return key == 'q' || key == 'Q';
+}
+
 }  // namespace
 
 void Console::resize(int columns, int rows) {
@@ -58,7 +62,7 @@ Reaction Console::press(const Key& key) {
     look_.status.clear();
     const Layout now = layout();
     if (now.too_small) {
-        return {key.kind == Key::Kind::character && key.character == 'q', std::nullopt};
+        return {key.kind == Key::Kind::character && quits(key.character), std::nullopt};
     }
     if (key.kind == Key::Kind::click) {
         const auto hit = now.hit(key.x, key.y);
@@ -98,7 +102,7 @@ Reaction Console::press(const Key& key) {
 }
 
 Reaction Console::press_hot(char key) {
-    if (key == 'q' || key == 'Q') {
+    if (quits(key)) {
         return {true, std::nullopt};
     }
     if (key == ' ') {

@@ -129,6 +129,9 @@ class ExpressionParser {
         if (!rest_.empty() && rest_.front() >= '0' && rest_.front() <= '9') {
             const auto read =
                 std::from_chars(rest_.data(), rest_.data() + rest_.size(), number, std::chars_format::fixed);
+            if (read.ec != std::errc{}) {
+                fail("a number beyond all bounds");
+            }
             rest_.remove_prefix(static_cast<std::size_t>(read.ptr - rest_.data()));
             push(Op::constant, number);
             return;

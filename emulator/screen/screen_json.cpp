@@ -28,11 +28,9 @@ Json value_json(const ValueInfo& info, const Shown& value) {
     switch (info.kind) {
         case ValueKind::number:
             out["value"] = std::isfinite(value.number) ? Json(value.number) : Json(nullptr);
-            if (const auto word = info.names.find(std::isfinite(value.number) && std::abs(value.number) < 1e15
-                                                      ? static_cast<std::int64_t>(value.number)
-                                                      : -1);
-                word != info.names.end()) {
-                out["name"] = word->second;
+            if (std::abs(value.number) < 1e15) {  // and so no infinity, and a number at all
+                const auto word = info.names.find(static_cast<std::int64_t>(value.number));
+                if (word != info.names.end()) out["name"] = word->second;
             }
             break;
         case ValueKind::text:

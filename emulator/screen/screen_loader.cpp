@@ -50,6 +50,7 @@ void read_line_rules(Compiler& compiler, const Json& node, LineRules& out) {
 /// The pages' paths, and for each the nearest page above it.
 void read_page_paths(Compiler& compiler, const Json& node, const Json& boxes) {
     ScreenProfile& profile = compiler.profile;
+    const ObjectReader pages(node, "/pages", compiler.findings);
     if (!node.is_object()) {
         return;
     }
@@ -105,7 +106,7 @@ void spread_buttons(Compiler& compiler, const Json& pages) {
         if (const auto list = pages[page.path].find("without"); list != pages[page.path].end()) {
             for_each_item(
                 *list, "/pages/" + page.path + "/without", [&](const Json& item, const std::string& where) {
-                    without.push_back(item.is_string() ? item.get<std::string>() : "");
+                    without.push_back(item.get<std::string>());
                     if (std::find(names.begin(), names.end(), without.back()) == names.end()) {
                         compiler.findings.add(
                             where, fmt::format("no button \"{}\" stands everywhere", without.back()),

@@ -348,8 +348,7 @@ bool Condition::holds_number(const Scope& scope) const {
     if (test_ == Test::range) {
         const double first = numbers_.front().evaluate(scope);
         const double last = numbers_.back().evaluate(scope);
-        return (!has_min_ || left >= first - tolerance) && (!has_max_ || left <= last + tolerance) &&
-               !std::isnan(left);
+        return (!has_min_ || left >= first - tolerance) && (!has_max_ || left <= last + tolerance);
     }
     const bool hit = std::any_of(numbers_.begin(), numbers_.end(), [&](const Expression& right) {
         return std::fabs(left - right.evaluate(scope)) <= tolerance;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <optional>
 #include <span>
@@ -66,7 +67,7 @@ class ValueTable {
     std::vector<Shown> power_on() const;
 
   private:
-    std::vector<ValueInfo> infos_;
+    std::deque<ValueInfo> infos_;  ///< one that is known stays where it is while others become known
     std::map<std::string, std::size_t, std::less<>> ids_;
     bool machine_ = false;
 };

@@ -64,7 +64,6 @@ TEST_CASE("conditions: min and max, bounds included") {
     CHECK_FALSE(holds(R"({"S": {"min": 2.001}})"));
     CHECK_FALSE(holds(R"({"S": {"max": 1.999}})"));
     CHECK_FALSE(holds(R"({"Q": {"min": -10}})"));  // nothing lies in no range
-    CHECK_FALSE(holds(R"({"screen.firmware": {"min": 0}})"));
 }
 
 TEST_CASE("conditions: in") {

@@ -87,12 +87,29 @@ TEST_CASE("wrong touches are told") {
     bench.shown = &screen;
     CHECK(client.code(R"({"op": "touch"})") == "bad-arguments");
     CHECK(client.code(R"({"op": "touch", "x": 1})") == "bad-arguments");
+    CHECK(client.code(R"({"op": "touch", "y": 1})") == "bad-arguments");
     CHECK(client.code(R"({"op": "touch", "x": 1.5, "y": 2})") == "bad-arguments");
+    CHECK(client.code(R"({"op": "touch", "x": 1000000000, "y": 2})") == "bad-arguments");
+    CHECK(client.code(R"({"op": "touch", "control": "Files", "y": 2})") == "bad-arguments");
     CHECK(client.code(R"({"op": "touch", "x": 1e9, "y": 2})") == "bad-arguments");
     CHECK(client.code(R"({"op": "touch", "control": "Files", "x": 1, "y": 2})") == "bad-arguments");
     CHECK(client.code(R"({"op": "touch", "control": "Files", "for": "11min"})") == "out-of-range");
     CHECK(client.code(R"({"op": "touch", "control": "Nowhere"})") == "refused");
     CHECK(client.code(R"({"op": "touch", "x": 480, "y": 0})") == "refused");
+}
+
+TEST_CASE("wrong presses and requests are told") {
+    Bench bench;
+    Client client(bench);
+    for (const char* row : {"0", "-1", "20000", "1.5"}) {
+        CAPTURE(std::string(row));
+        CHECK(client.code(R"({"op": "press", "button": "File", "row": )" + std::string(row) + "}") ==
+              "out-of-range");
+    }
+    CHECK(client.code(R"({"op": "request", "line": "M117 \u0101"})") == "bad-arguments");
+    CHECK(client.code(R"({"op": "request", "line": "M105\nM105"})") == "bad-arguments");
+    CHECK(client.code(R"({"op": "request", "line": ")" + std::string(5000, 'x') + "\"}") == "bad-arguments");
+    CHECK(client.code(R"({"op": "request", "line": "M105"})").empty());
 }
 
 TEST_CASE("base64 goes there and back, and refuses what is none") {

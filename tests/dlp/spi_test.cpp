@@ -162,6 +162,11 @@ TEST_CASE("SPI: lines, retries and commands in words") {
     CHECK(words_of(record).words.starts_with("bank 1, line 1280: 1440 lit, checksum "));
     CHECK(words_of(record).words.ends_with(" good"));
     CHECK_FALSE(words_of(record).wrong);
+    Packet beyond = line_of(0xFF);
+    seal(beyond, 1, panel_lines);
+    record.data.assign(beyond.begin(), beyond.end());
+    CHECK(words_of(record).words.ends_with(" good; there is no such line"));
+    CHECK(words_of(record).wrong);
     record.data[100] = 0;
     CHECK(words_of(record).wrong);
     CHECK(words_of(record).words.find("would be right") != std::string::npos);

@@ -69,6 +69,23 @@ TEST_CASE("slicers: other comments, and numbers that are none, say nothing") {
     }
 }
 
+TEST_CASE("slicers: layers of how many, times in words, each as far as it is told") {
+    CHECK(layers({"layer num/total_layer_count: 3/9", "layer num/total_layer_count: 4"}) ==
+          std::vector{3, 4});
+    CHECK(read_slicer_comment("layer num/total_layer_count: 3/9").layers == 9);
+    CHECK_FALSE(read_slicer_comment("layer num/total_layer_count: 3").layers.has_value());
+    CHECK(layers({"BEGIN_LAYER_OBJECT z=0.2", "BEGIN_LAYER_OBJECT z=0.4"}) == std::vector{1, 2});
+    CHECK_FALSE(read_slicer_comment("total layers count = x").layers.has_value());
+    CHECK(read_slicer_comment(" model printing time: 1m 30s").seconds == 90);
+    CHECK(read_slicer_comment(" model printing time: 1m 30s; total estimated time: 2m 5s").seconds == 125);
+    const std::string time = " estimated printing time (normal mode) = ";
+    for (const char* none : {"5x", "5", "1h 5", "x", "99999999999999d"}) {
+        CAPTURE(std::string(none));
+        CHECK_FALSE(read_slicer_comment(time + none).seconds.has_value());
+    }
+    CHECK(read_slicer_comment(time + "1h x").seconds == 3600);
+}
+
 TEST_CASE("slicers: the end of a file tells what its beginning could not") {
     SlicerNotes notes;
     notes.take_tail("G1 X5 ; layer 9, here too\n; layer 7, Z = 1.4\nG1\n; layer 8, Z = 1.6\nM84");

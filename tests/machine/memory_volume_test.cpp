@@ -94,3 +94,11 @@ TEST_CASE("memory volume: it is as big as it says, and room comes back") {
     }
     CHECK(files == MemoryVolume::most_files);
 }
+
+TEST_CASE("memory volume: a file renamed to its own name stays, and none becomes a folder") {
+    MemoryVolume disk(two_files());
+    REQUIRE(disk.append("a.txt", 7, "+"));
+    CHECK(disk.rename("a.txt", "a.txt"));
+    CHECK(read_all(disk, "a.txt") == "content+");
+    CHECK_FALSE(disk.rename("a.txt", "sub"));
+}

@@ -54,7 +54,7 @@ std::string make_panel_pws(const PanelPws& wishes);
 bool panel_pws_lit(std::uint32_t n, std::uint32_t level, std::uint32_t x, std::uint32_t y);
 
 /// The board itself, in virtual time.
-class DlpBench final : private dlp::Listener {
+class DlpBench : private dlp::Listener {
   public:
     struct Raised {
         dlp::Event event;
