@@ -20,6 +20,7 @@ using Form = TranscriptEntry::Form;
 constexpr SimTime one_second{1'000'000};
 constexpr SimTime one_day = one_second * 86'400;
 constexpr std::size_t shown_of_bad = 80;  // bytes
+constexpr std::size_t most_passed_over = 16UL * 1024 * 1024;
 
 struct ClockStamp {
     SimTime time_of_day{0};
@@ -127,9 +128,13 @@ int TranscriptReader::next_byte() {
 
 /// The next line into text_, its end left off. A line ends with LF, CR or CR LF. False at the end.
 bool TranscriptReader::read_text() {
+    if (given_up_) {
+        return false;
+    }
     text_.clear();
     cut_ = false;
     number_ = lines_ + 1;
+    std::size_t passed_over = 0;
     for (;;) {
         const int c = next_byte();
         if (c == std::char_traits<char>::eof()) {
@@ -146,6 +151,10 @@ bool TranscriptReader::read_text() {
         }
         if (text_.size() == max_text) {
             cut_ = true;
+            if (++passed_over == most_passed_over) {
+                in_->setstate(std::ios::badbit);  // zeros without end, a disk's image: no text
+                return given_up_ = true;
+            }
         } else {
             text_ += static_cast<char>(c);
         }
@@ -183,7 +192,8 @@ TranscriptEntry TranscriptReader::bad(std::string problem) const {
 
 TranscriptEntry TranscriptReader::parse() {
     if (cut_) {
-        return bad("a line of more than 64 KiB");
+        return bad(given_up_ ? "a line of more than 16 MiB; it and what is behind it is not read"
+                             : "a line of more than 64 KiB");
     }
     if (text_[text_.find_first_not_of(" \t")] == '{') {
         return parse_json();

@@ -57,7 +57,8 @@ struct TranscriptEntry {
 
 /// Reads a transcript of any form, line by line, each told by its content; a form that shows itself in the
 /// first lines is expected of the others. Never throws for what stands there. Memory does not grow with the
-/// file, nor with its lines: of a line of more than `max_text` bytes that much is looked at.
+/// file, nor with its lines: of a line of more than `max_text` bytes that much is looked at, and behind one
+/// of more than 16 MiB nothing.
 class TranscriptReader {
   public:
     static constexpr std::size_t max_text = 64UL * 1024;
@@ -84,6 +85,7 @@ class TranscriptReader {
     std::string name_;
     std::string text_;
     bool cut_ = false;        ///< text_ is only the start of a line
+    bool given_up_ = false;   ///< that line had no end
     std::size_t number_ = 0;  ///< of the line in text_
     std::size_t lines_ = 0;   ///< line ends seen
     bool after_cr_ = false;

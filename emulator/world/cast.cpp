@@ -193,6 +193,7 @@ std::map<std::string, std::string> files() {
             {"long.gco", small_print(400)},
             {"empty.gco", ""},
             {"cold.gco", cold_print()},
+            {"asks.gco", "G28\nG1 X20 F3000\nM0 take it off\nG1 X40\nM0\nG1 X60\n"},
             {"part.cbddlp", sliced::make_sample({})},
             {"panel.cbddlp", sliced::make_sample(of_panel)}};
 }

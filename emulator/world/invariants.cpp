@@ -354,7 +354,7 @@ constexpr std::array table{
     Invariant{Moment::peace, "one a turn",
               "A board that answers a request a turn does not answer faster, however many come at once.",
               one_a_turn},
-    Invariant{Moment::peace, "the user is heard", "When the user has continued, nothing waits for him.",
+    Invariant{Moment::step, "the user is heard", "When the user has continued, nothing waits for him.",
               user_is_heard},
     Invariant{Moment::peace, "prints end",
               "Once all is well a print comes to its end, with each of its moves and layers.", prints_end},

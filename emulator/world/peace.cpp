@@ -64,7 +64,7 @@ void World::let_most_be_acknowledged() {
     for (SimTime wait = std::chrono::seconds(1); owed() > few && wait < longest; wait += wait / 2) {
         pass(wait);
         if (wait > std::chrono::hours(1) && board_->machine().job.waits_for_user) {
-            tinker([](machine::Machine& machine) { machine.user_continues(); });
+            user_continues();
             wait = std::chrono::seconds(1);
         }
     }
@@ -84,7 +84,7 @@ void World::rest_while(const std::function<bool()>& goes_on) {
     const auto waits = [this] { return board_->machine().job.waits_for_user; };
     for (int i = 0; i < most_rests && (waits() || goes_on()); ++i) {
         if (waits()) {
-            tinker([](machine::Machine& machine) { machine.user_continues(); });
+            user_continues();
         }
         pass(rest);
     }
@@ -254,7 +254,7 @@ void World::peace() {
         walk(900, true);
     }
     proof_print();
-    ledger_.unheard = board_->machine().job.waits_for_user;
+    ledger_.unheard = ledger_.unheard || board_->machine().job.waits_for_user;
     after_step();
     look(Moment::peace);
 }

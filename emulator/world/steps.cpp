@@ -51,8 +51,14 @@ void job_begins(World& w, Dice& dice) {
 }
 
 void job_changes(World& w, Dice& dice) {
+    const std::uint64_t change = dice.below(5);
+    if (change == 4) {
+        w.remark("the user continues");
+        w.user_continues();
+        return;
+    }
     w.tinker([&](machine::Machine& machine) {
-        switch (dice.below(5)) {
+        switch (change) {
             case 0:
                 w.remark("the job is paused");
                 machine.pause_job();
@@ -62,10 +68,6 @@ void job_changes(World& w, Dice& dice) {
                 machine.resume_job();
                 break;
             case 2:
-                w.remark("the user continues");
-                machine.user_continues();
-                break;
-            case 3:
                 w.remark("the job is stopped");
                 w.new_job();
                 machine.stop_job();

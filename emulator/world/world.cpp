@@ -341,6 +341,13 @@ void World::tinker(const std::function<void(machine::Machine&)>& use) {
     run_to(now_);
 }
 
+void World::user_continues() {
+    tinker([this](machine::Machine& machine) {
+        machine.user_continues();
+        ledger_.unheard = ledger_.unheard || machine.job.waits_for_user;
+    });
+}
+
 void World::remark(const std::string& text) {
     if (listener_ != nullptr) {
         listener_->on_notice(now_, board::Level::info, text);

@@ -59,6 +59,8 @@ class World final : private board::Observer {
     std::string told(std::uint64_t peer, std::string_view bytes);
     void pass(SimTime time);
     void tinker(const std::function<void(machine::Machine&)>& use);
+    /// What waits for the user has his word.
+    void user_continues();
     /// One of the words of behaviour::action_words(); what the machine refuses is no harm.
     void act(std::string_view words);
     void reset();

@@ -238,6 +238,18 @@ TEST_CASE("junk: NULs, bytes of all kinds, a line without end, deep JSON") {
           Form::bad);
 }
 
+TEST_CASE("transcript: what has no line end in 16 MiB is no text, and is not read on") {
+    std::istringstream in("M105\n" + std::string(40UL * 1024 * 1024, '\0'));
+    TranscriptReader reader(in, "x");
+    CHECK(reader.next()->bytes == "M105");
+    const auto endless = reader.next();
+    CHECK(endless->form == Form::bad);
+    CHECK(endless->problem == "a line of more than 16 MiB; it and what is behind it is not read");
+    CHECK_FALSE(reader.next());
+    CHECK(in.bad());
+    CHECK(in.rdbuf()->in_avail() > 20L * 1024 * 1024);
+}
+
 TEST_CASE("a recording of a real line, as JSON lines and as two files with times of day") {
     const std::string capture = FAUXBOARD_SOURCE_DIR "/../shared/captures/a30t-boot-heat-load-home.jsonl";
     if (!std::filesystem::exists(capture)) {
