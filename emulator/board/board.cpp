@@ -84,7 +84,7 @@ void Board::power_on(SimTime now) {
     outbox_.clear();
     codes_.clear();
     ring_.reset();
-    held_ = {};
+    hold({});
     network_ = NetworkOutbox();
     unfinished_due_ = never;
     asker_.reset();
@@ -137,7 +137,7 @@ void Board::reload(std::shared_ptr<const behaviour::Profile> profile) {
     variables_ = std::move(variables);
     schedule_.reload(*profile_, time_);
     codes_ = CodeQueue(profile_->queue_codes, profile_->code_cells);
-    held_ = {};
+    hold({});
     told_.clear();
     after_ = nullptr;
 }
@@ -319,7 +319,7 @@ SimTime Board::advance(SimTime now) {
         const SimTime due = next_due();
         if (due > now) {
             time_ = std::max(time_, now);
-            return due;
+            return held_back_ ? time_ : due;
         }
         step(due);
     }

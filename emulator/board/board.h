@@ -219,6 +219,8 @@ class Board final : private behaviour::NoticeSink, private machine::FileCommands
     void put_datagrams(std::span<char> message, bool block);
     void take_request(std::string_view bytes);
     void run_rule(const behaviour::Rule& rule, const behaviour::Scope& scope);
+    struct Held;
+    void hold(Held held);
     void end_held();
     bool run_rules(const std::vector<behaviour::Rule>& rules, const protocol::Command* command);
     void run_events();

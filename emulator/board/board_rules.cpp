@@ -122,7 +122,7 @@ void Board::run_rule(const Rule& rule, const Scope& here) {
     const bool waits = !waited && machine_->waiting();  // of its own; another's wait is none of its business
     if (holds && here.command != nullptr && (waits || machine_->moving())) {
         const std::string_view code = here.command->word;
-        held_ = {&rule, std::string(code) + std::string(here.command->text), waits};
+        hold({&rule, std::string(code) + std::string(here.command->text), waits});
         return;
     }
     for (const Send& entry : rule.send) {
@@ -133,12 +133,20 @@ void Board::run_rule(const Rule& rule, const Scope& here) {
     }
 }
 
+/// Firmware that carries out a command to its end reads nothing from a file meanwhile: else a print, which
+/// always moves, would hold the line up until it is over.
+void Board::hold(Held held) {
+    held_ = std::move(held);
+    machine_->job.stands_by = held_.rule != nullptr;
+}
+
 /// The request that held up all others may be over: what its rule sends goes now.
 void Board::end_held() {
     if (held_.rule == nullptr || machine_->moving() || (held_.waits && machine_->waiting())) {
         return;
     }
-    const Held over = std::exchange(held_, {});
+    const Held over = held_;
+    hold({});
     protocol::Command command;
     if (protocol::parse_command(over.body, command)) {
         const Scope here = scope(&command);

@@ -176,7 +176,8 @@ void MksBoard::settle(SimTime now) {
     if (const auto worked = print.take_worked()) {
         count(worked, now);
     }
-    watch.look(lamp.on(), platform.busy(), print.active() && print.homed(), platform.position(now));
+    watch.look(lamp.on() && !uv_test.light(), platform.busy(), print.active() && print.homed(),
+               platform.position(now));
 }
 
 /// What a print adds to the working times, which are kept.

@@ -11,8 +11,8 @@ namespace fauxboard::dlp {
 /// What must never happen to a machine with this board, counted since power-on, so that a scenario can hold
 /// it over a whole print.
 struct Watch {
-    std::uint64_t lit_moving = 0;      ///< moments in which the lamp was on and the platform moved
-    std::uint64_t into_model = 0;      ///< and in which the platform was lower than what it had printed
+    std::uint64_t lit_moving = 0;  ///< moments in which the lamp was on, not by hand, and the platform moved
+    std::uint64_t into_model = 0;  ///< and in which the platform was lower than what it had printed
     std::uint64_t wrong_pictures = 0;  ///< pictures displayed that are not the file's
     std::uint64_t lit_at_end = 0;      ///< ends of prints with the lamp on
     double exposure_error_ms = 0;      ///< most that an exposure was longer or shorter than the file says
@@ -21,7 +21,8 @@ struct Watch {
         return lit_moving + into_model + wrong_pictures + lit_at_end + (exposure_error_ms > 1 ? 1U : 0U);
     }
 
-    /// Told at every moment at which something happens. `mm`: the platform, as the board counts it.
+    /// Told at every moment at which something happens. `lamp`: on, but for the UV test's. `mm`: the
+    /// platform, as the board counts it.
     void look(bool lamp, bool moving, bool printing, double mm) {
         constexpr double tolerance_mm = 1e-4;
         lit_moving += lamp && moving ? 1U : 0U;

@@ -2,12 +2,15 @@
 
 #include "emulator/filament/gcode_rows.h"
 
+#include <algorithm>
+
 namespace fauxboard::filament::codes {
 namespace {
 
 constexpr double probing_travel_mm_s = 100;
 constexpr double probing_s = 1.5;
 constexpr double probing_lift_mm = 5;
+constexpr double most_of_an_arc_e_mm = 1e6;  ///< as one block of the planner's has its longest time
 
 /// Where a G0 to G3 ends; F, if there, stays in force.
 AxisValues target_of(GcodeSource& r, Line line) {
@@ -65,6 +68,8 @@ void arc(GcodeSource& r, Line line) {
     if (guard_extrusion(r, request.to[3])) {
         request.from[3] = request.to[3] = r.on.motion.planned()[3];
     }
+    request.to[3] = std::clamp(request.to[3], request.from[3] - most_of_an_arc_e_mm,
+                               request.from[3] + most_of_an_arc_e_mm);
     if (!r.arc.begin(request)) {
         r.on.events.raise(event("motion.bad_arc"));
     }

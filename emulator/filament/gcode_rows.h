@@ -30,23 +30,22 @@ std::span<const GcodeCode> job_codes();
 std::span<const GcodeCode> setting_codes();
 
 inline constexpr std::string_view axis_letters = "XYZE";
-inline constexpr double largest_setting = 1e6;
 
 inline int percent(double value, int least, int most) {
     return static_cast<int>(std::lround(std::clamp(value, double(least), double(most))));
 }
 
 /// The number behind `name`, where it stands.
-inline void take(Line line, char name, double& out, double least = 0) {
+inline void take(Line line, char name, double& out, const SettingBounds& bounds) {
     if (line.has(name)) {
-        out = std::clamp(line.number(name), least, largest_setting);
+        out = std::clamp(line.number(name), bounds.least, bounds.most);
     }
 }
 
 /// The numbers behind X, Y, Z and E, where given, into `out`.
-inline void take_axes(Line line, AxisValues& out, double least) {
+inline void take_axes(Line line, AxisValues& out, const SettingBounds& bounds) {
     for (std::size_t i = 0; i < axis_count; ++i) {
-        take(line, axis_letters[i], out[i], least);
+        take(line, axis_letters[i], out[i], bounds);
     }
 }
 

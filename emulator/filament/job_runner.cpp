@@ -114,7 +114,7 @@ std::uint64_t JobRunner::executed_byte() const {
 /// Whether lines are being read and carried out at all.
 bool JobRunner::reading() const {
     return on_.job.status() == JobStatus::printing && !on_.job.pausing() && !on_.wait.active() &&
-           !on_.host.holds();
+           !on_.host.holds() && !on_.job.stands_by;
 }
 
 SimTime JobRunner::next_event(SimTime now) const {

@@ -105,6 +105,7 @@ void Printer::seek_job(double byte) {
     job.set_byte(byte);
     if (job.active()) {
         runner.seek();
+        recovery.seek();
     }
 }
 

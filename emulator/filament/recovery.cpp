@@ -67,9 +67,20 @@ void Recovery::keep(SimTime now) {
     place.modal = on_.modal;
     place.relative = motion.relative();
     place.relative_e = motion.relative_e_alone();
+    store();
+}
+
+void Recovery::store() {
     if (store_ != nullptr) {
-        put_place(place, kept_);
+        put_place(*place_, kept_);
         store_->keep(kept_);
+    }
+}
+
+void Recovery::seek() {
+    if (place_ && on_.job.active() && place_->byte != on_.job.place()) {
+        place_->byte = on_.job.place();
+        store();
     }
 }
 

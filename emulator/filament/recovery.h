@@ -41,11 +41,14 @@ class Recovery {
 
     /// To be called when the job may have come further.
     void keep(SimTime now);
+    /// The job goes on elsewhere in its file, and so would one that is taken up.
+    void seek();
     void advance(SimTime now);
     SimTime next_event(SimTime now) const { return step_ == Step::none ? never : next_step(now); }
     bool active() const { return step_ != Step::none; }
 
   private:
+    void store();
     enum class Step : std::uint8_t { none, bed, nozzle, home, travel, print };
 
     SimTime next_step(SimTime now) const;

@@ -10,6 +10,17 @@
 namespace fauxboard::filament {
 
 /// Motion parameters: the pages behind M2140. Defaults are those a real A30T reported (L24 frames).
+/// Within which settings are kept, whoever sets them: a code, a profile, what was saved.
+struct SettingBounds {
+    double least;
+    double most;
+};
+inline constexpr SettingBounds steps_bounds{0.01, 100'000};      ///< steps/mm
+inline constexpr SettingBounds velocity_bounds{0.01, 10'000};    ///< mm/s
+inline constexpr SettingBounds slowest_bounds{0, 10'000};        ///< mm/s
+inline constexpr SettingBounds acceleration_bounds{1, 100'000};  ///< mm/s^2
+inline constexpr SettingBounds jerk_bounds{0, 1000};             ///< mm/s
+
 struct Settings {
     AxisValues steps_per_mm{80, 80, 400, 390};
     AxisValues velocity_mm_s{150, 150, 20, 25};

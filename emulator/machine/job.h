@@ -81,6 +81,7 @@ class Job {
     };
     std::vector<Loop> loops;
     bool waits_for_user = false;  ///< M0, M1, M600
+    bool stands_by = false;  ///< a command of the screen's is carried out to its end; the file is not read
 
   private:
     void forget();

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
+#include <system_error>
 
 #include "emulator/behaviour/fields.h"
 #include "emulator/screen/screen.h"
@@ -79,7 +81,10 @@ std::string bounded_output(const View& view) {
 }
 
 std::string time_goes_on(const View& view) {
-    return view.board.time() >= view.ledger.before ? "" : "the board's time went back";
+    if (view.board.time() < view.ledger.before) {
+        return "the board's time went back";
+    }
+    return view.board.time() == view.ledger.now ? "" : "the board's time stood still";
 }
 
 std::string counters_add_up(const View& view) {
@@ -154,6 +159,31 @@ std::string saved_is_there(const View& view) {
     return !kept || image == *kept ? "" : "the board's EEPROM holds something else than was saved";
 }
 
+std::string saved_is_stored(const View& view) {
+    const std::string& image = view.board.machine().eeprom_image.text();
+    const bool stored = image == view.eeprom.kept().value_or(view.ledger.eeprom_at_first);
+    return stored || view.eeprom.refused() ? "" : "what the board takes for saved was not stored";
+}
+
+/// Numbers alone: texts are few, and shown as they are.
+std::string saved_is_in_force(const View& view) {
+    return each_line(view.board.machine().eeprom_image.text(), [&view](std::string_view line) -> std::string {
+        const std::size_t blank = line.find(' ');
+        const behaviour::Field* const field = behaviour::find_field(line.substr(0, blank));
+        if (blank == std::string_view::npos || field == nullptr || !field->stored) {
+            return {};
+        }
+        double saved = 0;
+        const std::string_view number = line.substr(blank + 1);
+        const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), saved);
+        const std::optional<double> in_force = number_of(view.board.machine(), field->path);
+        return error != std::errc{} || end != number.data() + number.size() ||
+                       in_force.value_or(saved) == saved
+                   ? ""
+                   : fmt::format("{} is {}, and was saved as {}", field->path, *in_force, saved);
+    });
+}
+
 std::string place_was_reached(const View& view) {
     const std::optional<Place> place = saved_place(view.board.machine());
     if (!place) {
@@ -165,20 +195,40 @@ std::string place_was_reached(const View& view) {
                : fmt::format("\"{}\" is to go on at byte {}, where it never was", place->path, place->byte);
 }
 
+std::string over_is_over(const View& view) {
+    const machine::Machine& machine = view.board.machine();
+    const std::optional<Place> place = saved_place(machine);
+    return view.ledger.job_over && !machine.job.active() && place
+               ? fmt::format("\"{}\" has ended, and is to go on at byte {}", place->path, place->byte)
+               : "";
+}
+
 std::string every_line_answers(const View& view) {
     return view.ledger.unanswered.empty() ? "" : fmt::format("{}", fmt::join(view.ledger.unanswered, "; "));
 }
 
 std::string moves_once(const View& view) {
-    if (!view.ledger.walk) {
-        return {};
-    }
-    const auto& [asked, came] = *view.ledger.walk;
-    const bool there =
-        std::abs(asked[0] - came[0]) < walk_grain_mm && std::abs(asked[1] - came[1]) < walk_grain_mm;
-    return there ? ""
-                 : fmt::format("the moves lead to {:.3f}, {:.3f}; the head is at {:.3f}, {:.3f}", asked[0],
+    for (const auto& [asked, came] : view.ledger.walks) {
+        if (std::abs(asked[0] - came[0]) >= walk_grain_mm || std::abs(asked[1] - came[1]) >= walk_grain_mm) {
+            return fmt::format("the moves lead to {:.3f}, {:.3f}; the head is at {:.3f}, {:.3f}", asked[0],
                                asked[1], came[0], came[1]);
+        }
+    }
+    return {};
+}
+
+std::string one_a_turn(const View& view) {
+    const int answers = view.ledger.too_soon;
+    return answers == 0 ? "" : fmt::format("{} requests were answered within one turn", answers);
+}
+
+std::string user_is_heard(const View& view) {
+    return view.ledger.unheard ? "the board waits for a user who has continued" : "";
+}
+
+std::string upload_is_there(const View& view) {
+    const std::string& name = view.ledger.not_saved;
+    return name.empty() ? "" : fmt::format("\"{}\" was acknowledged, and is something else", name);
 }
 
 std::string told_of(const Tally& tally) {
@@ -252,7 +302,8 @@ constexpr std::array table{
     Invariant{Moment::output, "bounded output",
               "What the board says at once is bounded by its queues, not by what it was told.",
               bounded_output},
-    Invariant{Moment::step, "time goes on", "The board's time never goes back.", time_goes_on},
+    Invariant{Moment::step, "time goes on", "The board's time never goes back, and is that of who calls it.",
+              time_goes_on},
     Invariant{Moment::step, "counters add up", "The counters are what an observer counts.", counters_add_up},
     Invariant{Moment::step, "no more ok than commands",
               "The USB side never hears more acknowledgements than there were commands.",
@@ -273,11 +324,20 @@ constexpr std::array table{
     Invariant{Moment::step, "files are whole",
               "What stands under a name is the whole of something that was written, whatever was cut off.",
               files_are_whole},
+    Invariant{Moment::step, "upload is there",
+              "An upload that was acknowledged to its end is there, byte for byte.", upload_is_there},
+    Invariant{Moment::step, "saved is stored",
+              "What the board takes for saved was stored, unless it was told that it could not be.",
+              saved_is_stored},
     Invariant{Moment::power_cut, "saved is there",
               "What was acknowledged as saved is there after the power was cut at any moment.",
               saved_is_there},
+    Invariant{Moment::power_cut, "saved is in force",
+              "A board that is switched on goes by the settings that were saved.", saved_is_in_force},
     Invariant{Moment::power_cut, "place was reached",
               "After a power cut a job goes on at a place that it really had reached.", place_was_reached},
+    Invariant{Moment::step, "over is over", "A job that has ended is not to be taken up again.",
+              over_is_over},
     Invariant{Moment::peace, "files are whole after all", "The same once all troubles are over.",
               files_are_whole},
     Invariant{Moment::peace, "every line answers",
@@ -291,6 +351,11 @@ constexpr std::array table{
     Invariant{Moment::peace, "moves once",
               "A move is executed once, in its order: many short ones lead where their sum leads.",
               moves_once},
+    Invariant{Moment::peace, "one a turn",
+              "A board that answers a request a turn does not answer faster, however many come at once.",
+              one_a_turn},
+    Invariant{Moment::peace, "the user is heard", "When the user has continued, nothing waits for him.",
+              user_is_heard},
     Invariant{Moment::peace, "prints end",
               "Once all is well a print comes to its end, with each of its moves and layers.", prints_end},
     Invariant{

@@ -20,6 +20,7 @@ using machine::SimTime;
 /// read by invariants.cpp alone.
 struct Ledger {
     SimTime before{0};  ///< the board's time after the last step
+    SimTime now{0};     ///< the world's
 
     // Lines, as the observer was told, since the board was made.
     std::uint64_t lines_heard = 0;
@@ -38,9 +39,12 @@ struct Ledger {
     std::uint64_t job_seen = 0;
     std::uint64_t job_executed = 0;  ///< where it was last executed
     bool paused = false;             ///< since the last step
+    bool job_over = false;           ///< the last one came to its end, or was ended
 
     PrintWatch prints;
     std::optional<Tally> proof;  ///< what the print at the end should come to; nothing: there was none
+
+    std::string eeprom_at_first;  ///< its image when the board was made: the factory's, or what was kept
 
     bool harmed = false;  ///< some of the printer was broken since power-on
     bool misset = false;  ///< settings were changed with which a printer may be unable to print
@@ -63,7 +67,10 @@ struct Ledger {
         std::array<double, 2> asked_mm{};
         std::array<double, 2> came_mm{};
     };
-    std::optional<Walk> walk;
+    std::vector<Walk> walks;
+    int too_soon = 0;       ///< answers that came within a turn, when there should have been one
+    bool unheard = false;   ///< the user has continued again and again, and the board still waits for him
+    std::string not_saved;  ///< a file that was acknowledged and is not there
 };
 
 }  // namespace fauxboard::world

@@ -5,170 +5,49 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <iterator>
 #include <string>
 
 #include "emulator/behaviour/actions.h"
 #include "emulator/behaviour/fields.h"
 #include "emulator/machine/faults.h"
 #include "emulator/machine/host_side.h"
+#include "emulator/world/peers.h"
 #include "emulator/world/world.h"
-#include "protocol/framing.h"
 
 namespace fauxboard::world {
 namespace {
 
-using board::Channel;
 using fault::Dice;
 using namespace std::chrono_literals;
-
-template <class List>
-const auto& one_of(const List& list, Dice& dice) {
-    return list[dice.below(std::size(list))];
-}
-
-std::string number(Dice& dice) {
-    switch (dice.below(6)) {
-        case 0:
-            return std::to_string(dice.below(4));
-        case 1:
-            return std::to_string(dice.below(300));
-        case 2:
-            return fmt::format("-{}.{}", dice.below(50), dice.below(100));
-        case 3:
-            return fmt::format("{}.{:03}", dice.below(300), dice.below(1000));
-        case 4:
-            return std::to_string(dice.next());
-        default:
-            return "";
-    }
-}
-
-std::string with_parameters(const std::string& code, Dice& dice) {
-    std::string out = code;
-    for (std::uint64_t i = dice.below(4); i > 0; --i) {
-        out += ' ';
-        out += one_of(std::string_view("SPXYZEFRTABCDHIJKQUVW"), dice);
-        out += number(dice);
-    }
-    return out;
-}
-
-std::string garbage(Dice& dice) {
-    std::string out;
-    for (std::uint64_t i = dice.below(dice.below(20) == 0 ? 5000 : 40); i > 0; --i) {
-        out += static_cast<char>(dice.below(3) == 0 ? dice.below(256) : 0x20 + dice.below(95));
-    }
-    return out;
-}
-
-/// A code of a list with parameters, or with the name of a file, or none at all.
-std::string request(const std::vector<std::string>& codes, Dice& dice) {
-    if (codes.empty() || dice.below(20) == 0) {
-        return garbage(dice);
-    }
-    const std::string& code = one_of(codes, dice);
-    static constexpr std::array<std::string_view, 5> names{"part.gco", "long.gco", "empty.gco", "none.gco",
-                                                           "../part.gco"};
-    return dice.below(5) == 0 ? fmt::format("{} {}", code, one_of(names, dice)) : with_parameters(code, dice);
-}
-
-// Peers.
-// -----------------------------------------------------------------------------------------------
-
-void screen_asks(World& w, Dice& dice) {
-    const std::string body = request(w.cast().requests, dice);
-    const bool framed = w.cast().profile->line.framing == behaviour::Framing::frames;
-    w.say(Channel::main, framed ? protocol::frame(body) : body + "\r\n");
-}
-
-void screen_stammers(World& w, Dice& dice) {
-    std::string text = garbage(dice);
-    if (dice.below(2) == 0) {
-        text += '\n';
-    }
-    w.say(Channel::main, text);
-}
-
-void screen_is_touched(World& w, Dice& dice) {
-    w.touch(dice);
-}
-
-void screen_floods(World& w, Dice& dice) {
-    std::string all;
-    for (std::uint64_t i = dice.below(200); i > 0; --i) {
-        all += protocol::frame("M105");
-    }
-    w.say(Channel::main, all);
-}
-
-void host_commands(World& w, Dice& dice) {
-    w.command(request(w.cast().commands, dice));
-}
-
-/// More than any queue holds, by a host that does not wait.
-void host_floods(World& w, Dice& dice) {
-    w.command("G4 S3");
-    for (std::uint64_t i = dice.below(5000); i > 0; --i) {
-        w.command("M105");
-    }
-}
-
-void host_stammers(World& w, Dice& dice) {
-    static constexpr std::array<std::string_view, 8> odd{
-        "N3 M105*1\n", "N5 M105\n", "M105*7\n", "\n", "M\n", "N\n", "*\n", "N-1 M110*0\n"};
-    w.say(Channel::host, dice.below(2) == 0 ? std::string(one_of(odd, dice)) : garbage(dice) + "\n");
-}
-
-void host_prints(World& w, Dice& dice) {
-    for (std::uint64_t i = dice.below(30); i > 0; --i) {
-        w.command(fmt::format("G1 X{} Y{} E{} F{}", dice.below(100), dice.below(100), dice.below(10),
-                              600 + dice.below(6000)));
-        w.pass(std::chrono::milliseconds(dice.below(50)));
-    }
-}
-
-void host_uploads(World& w, Dice& dice) {
-    if (w.owed() > 0) {
-        return;  // a good host waits
-    }
-    // One that will not come back has a name of its own: what others say then goes into that file.
-    const bool given_up = dice.below(8) == 0;
-    const std::string name = given_up ? "left.gco" : fmt::format("up{}.gco", dice.below(3));
-    const std::uint64_t lines = dice.below(60);
-    std::string content;
-    std::vector<std::string> said;
-    for (std::uint64_t i = 0; i < lines; ++i) {
-        said.push_back(fmt::format("G1 X{} Y{}", dice.below(100), dice.below(100)));
-        content += said.back() + "\r\n";
-    }
-    if (!given_up) {
-        w.will_be(name, content);
-    }
-    w.command("M28 " + name);
-    for (const std::string& line : said) {
-        w.command(line);
-        w.let_most_be_acknowledged();  // what is logged is carried out as well
-    }
-    if (!given_up) {
-        w.command("M29");
-    }
-}
-
-void network_asks(World& w, Dice& dice) {
-    static constexpr std::array<std::string_view, 6> ends{"", "\n", "\r\n", "\0", "\r", "  "};
-    w.datagram(1 + dice.below(3), dice.below(4) == 0
-                                      ? garbage(dice)
-                                      : request(w.cast().requests, dice) + std::string(one_of(ends, dice)));
-}
 
 // The job.
 // -----------------------------------------------------------------------------------------------
 
+/// Files with nothing to print in them, farther than a board reads at once: remarks, or a line without end.
+const std::string& chatter(bool in_lines) {
+    constexpr std::size_t size = 3'500'000;
+    static const std::string endless(size, 'x');
+    static const std::string lines = [] {
+        std::string out;
+        while (out.size() < size) {
+            out += "; nothing but a remark\n";
+        }
+        return out;
+    }();
+    return in_lines ? lines : endless;
+}
+
 void job_begins(World& w, Dice& dice) {
-    if (!w.cast().prints.empty()) {
-        w.print(one_of(w.cast().prints, dice));
+    if (w.cast().prints.empty()) {
+        return;
     }
+    const std::string& file = one_of(w.cast().prints, dice);
+    if (dice.below(8) != 0 || !file.ends_with(".gco")) {
+        w.print(file);
+        return;
+    }
+    w.disk().put("chatter.gco", chatter(dice.below(2) == 0));
+    w.print("chatter.gco");
 }
 
 void job_changes(World& w, Dice& dice) {
@@ -242,6 +121,10 @@ void something_is_wished(World& w, Dice& dice) {
     if (action.name.starts_with("card.")) {
         w.harmed();  // among them: one that cannot be read
     }
+    if (action.name == "platform.set_zero") {
+        w.misset();  // in the air, or within what is printed
+        w.harmed();
+    }
     w.act(fmt::format("{{\"{}\": {{{}}}}}", action.name, args));
 }
 
@@ -259,6 +142,9 @@ void value_changes(World& w, Dice& dice) {
         if (field.path.starts_with(begin)) {
             w.misset();
         }
+    }
+    if (field.path == "platform.zero") {
+        w.harmed();  // the platform's zero lies within what is printed, then
     }
     const double share = static_cast<double>(dice.below(101)) / 100;
     if (field.type == behaviour::FieldType::text) {
@@ -324,6 +210,7 @@ constexpr std::array table{
     StepKind{"host prints", 3, host_prints},
     StepKind{"host uploads", 3, host_uploads},
     StepKind{"network asks", 8, network_asks},
+    StepKind{"network uploads", 3, network_uploads},
     StepKind{"job begins", 5, job_begins},
     StepKind{"job changes", 6, job_changes},
     StepKind{"job is taken up", 2, job_is_taken_up},

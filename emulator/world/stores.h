@@ -20,13 +20,18 @@ class Eeprom final : public machine::EepromStore {
         if (!fails) {
             kept_ = image;
         }
+        refused_ = refused_ || fails;
         return !fails;
     }
+    void power_on() { refused_ = false; }
+    /// Something was not saved since the board was switched on.
+    bool refused() const { return refused_; }
     const std::optional<std::string>& kept() const { return kept_; }
     bool fails = false;
 
   private:
     std::optional<std::string> kept_;
+    bool refused_ = false;
 };
 
 /// The cells of an EEPROM chip in memory: each is written when it is told.

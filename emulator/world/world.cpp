@@ -63,10 +63,12 @@ void World::make_board() {
     if (cast_.scenario) {
         scene_.emplace(cast_.scenario);
     }
+    eeprom_.power_on();
     ledger_.lines_heard = ledger_.lines_said = 0;
-    ledger_.harmed = false;
+    ledger_.harmed = ledger_.job_over = false;
     ledger_.before = now_;
     board_->power_on(now_);
+    ledger_.eeprom_at_first = board_->machine().eeprom_image.text();
     take_output();
 }
 
@@ -94,7 +96,7 @@ void World::on_received(SimTime now, Channel channel, std::string_view line, boa
         ++ledger_.damaged_taken;
     }
     if (channel == Channel::host) {
-        host_verdict_ = verdict;
+        first_verdict_ = first_verdict_.value_or(verdict);
     }
     std::array<char, protocol::max_line_bytes> room;
     const std::string_view kept = protocol::read_host_line(line, room, protocol::max_line_bytes);
@@ -154,6 +156,11 @@ void World::on_event(SimTime now, machine::EventId event) {
     } else if (event->name == "job.paused") {
         ledger_.paused = true;
     }
+    if (event->name == "job.finished" || event->name == "job.stopped" || event->name == "job.replaced") {
+        ledger_.job_over = true;
+    } else if (event->name == "job.started") {
+        ledger_.job_over = false;
+    }
     ledger_.prints.see(event, board_->machine());
 }
 
@@ -197,6 +204,7 @@ void World::after_step() {
         }
     }
     ledger_.most_bytes_read = std::max(ledger_.most_bytes_read, disk_.take_bytes_read());
+    ledger_.now = now_;
     look(Moment::step);
     const machine::Machine& machine = board_->machine();
     ledger_.before = board_->time();
@@ -293,13 +301,17 @@ void World::say(Channel channel, std::string_view bytes) {
     }
 }
 
-void World::command(std::string_view body) {
+bool World::command(std::string_view body) {
     const std::string line = fmt::format("N{} {}", ++line_number_, body);
+    first_verdict_.reset();
     say(Channel::host, fmt::format("{}*{}\n", line, checksum(line)));
-    // One that was not taken is not counted. Not that of whichever line spoke last.
+    // One that was not taken is not counted; what is too long, or has line ends in it, is several, and the
+    // number stands in the first. Not that of whichever line spoke last.
     const std::int64_t last = board_->machine().host_side().lines[machine::HostSide::usb_port].last;
-    ledger_.lost_counted += host_verdict_ != board::Verdict::accepted && last == line_number_ ? 1U : 0U;
+    const bool taken = first_verdict_ == board::Verdict::accepted;
+    ledger_.lost_counted += !taken && last == line_number_ ? 1U : 0U;
     line_number_ = last;
+    return taken;
 }
 
 void World::datagram(std::uint64_t peer, std::string_view bytes) {
@@ -307,6 +319,20 @@ void World::datagram(std::uint64_t peer, std::string_view bytes) {
     board_->receive_datagram(now_, peer, bytes);
     take_output();
     run_to(now_);
+}
+
+std::string World::told(std::uint64_t peer, std::string_view bytes) {
+    asked_ = Channel::network;
+    heard_.clear();
+    datagram(peer, bytes);
+    return std::exchange(heard_, {});
+}
+
+void World::is_saved(const std::string& path, std::string_view content) {
+    const std::string* const there = disk_.content(path);
+    if (there == nullptr || *there != content) {
+        ledger_.not_saved = path;
+    }
 }
 
 void World::tinker(const std::function<void(machine::Machine&)>& use) {

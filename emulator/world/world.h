@@ -51,10 +51,12 @@ class World final : private board::Observer {
 
     /// Bytes for the board; what comes of them is seen to.
     void say(board::Channel channel, std::string_view bytes);
-    /// A command of the USB side, framed as hosts do.
-    void command(std::string_view body);
+    /// A command of the USB side, framed as hosts do. Whether it was taken; else the next one has its number.
+    bool command(std::string_view body);
     void let_most_be_acknowledged();
     void datagram(std::uint64_t peer, std::string_view bytes);
+    /// What is answered to it at once.
+    std::string told(std::uint64_t peer, std::string_view bytes);
     void pass(SimTime time);
     void tinker(const std::function<void(machine::Machine&)>& use);
     /// One of the words of behaviour::action_words(); what the machine refuses is no harm.
@@ -69,6 +71,8 @@ class World final : private board::Observer {
     void will_be(const std::string& path, std::string content) {
         ledger_.whole[path].insert(std::move(content));
     }
+    /// The board has acknowledged that this file is there as a whole.
+    void is_saved(const std::string& path, std::string_view content);
     void misset() { ledger_.misset = true; }
     void harmed() { ledger_.harmed = true; }
     /// For who listens: what was done to the machine.
@@ -102,7 +106,8 @@ class World final : private board::Observer {
     /// Until that is no longer so, or a month and more has passed.
     void rest_while(const std::function<bool()>& goes_on);
     void close_files();
-    void walk();
+    void hurry();
+    void walk(int moves, bool hasty);
     void proof_print();
     bool prints() const;
     void note_place();
@@ -120,10 +125,10 @@ class World final : private board::Observer {
     Ledger ledger_;
     SimTime now_{0};
     SimTime past_{0};
-    std::optional<SimTime> told_to_jump_;                     ///< a line said that the job goes on elsewhere
-    board::Verdict host_verdict_ = board::Verdict::accepted;  ///< of the USB side's last line
-    std::int64_t line_number_ = 0;                            ///< of the USB side's commands
-    std::string heard_;                                       ///< on the line that is being asked
+    std::optional<SimTime> told_to_jump_;          ///< a line said that the job goes on elsewhere
+    std::optional<board::Verdict> first_verdict_;  ///< of the lines that a command of the host is
+    std::int64_t line_number_ = 0;                 ///< of the USB side's commands
+    std::string heard_;                            ///< on the line that is being asked
     board::Channel asked_ = board::Channel::main;
     std::uint64_t digest_ = 0xCBF29CE484222325U;
     std::uint64_t requests_ = 0;

@@ -178,6 +178,27 @@ TEST_CASE("A30: a command works until it is done, and nothing leaves meanwhile")
     CHECK(holds(a30.after("M2107 S0", 120), "M2107 Z:0.00\n"));
 }
 
+TEST_CASE("A30: a command during a print is carried out between two of its moves, not behind its end") {
+    std::string text = "G28\n";
+    for (int i = 0; i < 3000; ++i) {
+        text += i % 2 == 0 ? "G1 X10 F6000\n" : "G1 X100\n";
+    }
+    A30 a30(text);
+    BoardDriver& driver = *a30.driver;
+    a30.start();
+    driver.run_for(120);
+    const double from = driver.now();
+    const double byte = driver.number("job.byte");
+    REQUIRE(driver.number("job.status") == 1);
+    driver.feed("G29\r\nM2108\r\nM105\r\n");
+    driver.run_for(90);
+    CHECK_FALSE(driver.matching("L2 ", from).empty());
+    CHECK(driver.number("job.status") == 1);
+    CHECK(driver.number("job.byte") > byte + 100);
+    driver.run_for(3600);
+    CHECK(driver.number("job.status") == 0);
+}
+
 TEST_CASE("A30: M114 waits for moves, whoever asked for them, and not for heat") {
     A30 a30;
     BoardDriver& driver = *a30.driver;

@@ -383,3 +383,24 @@ TEST_CASE("Marlin: what it was built with is a setting of the profile") {
     CHECK(has(prusa.told("M115"), "FIRMWARE_NAME:Prusa-Firmware"));
     CHECK(prusa.told("M105") == "ok T:22.0 /0.0 B:22.0 /0.0 T0:22.0 /0.0 @:0 B@:0\n");
 }
+
+TEST_CASE("Marlin: what its output had no room for goes on as soon as there is room") {
+    MarlinBench bench;
+    board::Board& board = bench.board();
+    board.connect(board::Channel::host, true);
+    const auto at = [&bench](double seconds) { return machine::from_seconds(bench.now() + seconds); };
+    std::string all = "G4 P100\n";
+    for (int i = 0; i < 300; ++i) {
+        all += "M503\n";
+    }
+    board.clear_output();
+    board.receive(at(0), all, board::Channel::host);
+    std::ptrdiff_t answers = 0;
+    for (machine::SimTime due{0}; due <= at(0.2);) {
+        due = board.advance(at(0.2));
+        const std::string_view said = board.output(board::Channel::host);
+        answers += count(std::string(said), "ok\n");
+        board.clear_output();
+    }
+    CHECK(answers == 301);
+}

@@ -384,6 +384,27 @@ TEST_CASE("job: moves that waited before it began say nothing of its place") {
     CHECK(machine.printer.runner.counts().moves == 4);  // two were thrown away with the pause
 }
 
+TEST_CASE("job: a paused job that is sought elsewhere goes on there, also where it is taken up anew") {
+    auto anew = std::make_shared<Config>(*config());
+    anew->job.pause_at_once = anew->job.resume_homes_first = true;
+    Machine machine("G1 X20 F600\nG1 X30\nG1 X40\n", anew);
+    machine.run_until(0.5);
+    machine.printer.pause_job();
+    CHECK(machine.printer.job.place() == 0);
+    machine.printer.seek_job(19);
+    machine.printer.start_or_resume_job();
+    machine.run_until(300);
+    CHECK(machine.count(event("job.finished")) == 1);
+    CHECK(machine.printer.runner.counts().moves == 1);
+    CHECK(machine.position(Axis::x) == 40);
+}
+
+TEST_CASE("job: an arc comes to its end, however much filament it asks for") {
+    Machine machine("G2 I5 J5 E12676795308826984226 F6000\nG1 X1\n");
+    CHECK(machine.finish() < 86'400);
+    CHECK(machine.position(Axis::x) == 1);
+}
+
 TEST_CASE("job: an arc that a pause cuts off is made anew, once, and what was held behind it") {
     auto at_once = std::make_shared<Config>(*config());
     at_once->job.pause_at_once = true;

@@ -1,0 +1,200 @@
+#include "emulator/world/peers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "emulator/world/world.h"
+#include "protocol/chitu_chunk.h"
+#include "protocol/framing.h"
+
+namespace fauxboard::world {
+namespace {
+
+using board::Channel;
+using fault::Dice;
+
+std::string number(Dice& dice) {
+    switch (dice.below(6)) {
+        case 0:
+            return std::to_string(dice.below(4));
+        case 1:
+            return std::to_string(dice.below(300));
+        case 2:
+            return fmt::format("-{}.{}", dice.below(50), dice.below(100));
+        case 3:
+            return fmt::format("{}.{:03}", dice.below(300), dice.below(1000));
+        case 4:
+            return std::to_string(dice.next());
+        default:
+            return "";
+    }
+}
+
+std::string with_parameters(const std::string& code, Dice& dice) {
+    std::string out = code;
+    for (std::uint64_t i = dice.below(4); i > 0; --i) {
+        out += ' ';
+        out += one_of(std::string_view("SPXYZEFRTABCDHIJKQUVW"), dice);
+        out += number(dice);
+    }
+    return out;
+}
+
+std::string garbage(Dice& dice) {
+    std::string out;
+    for (std::uint64_t i = dice.below(dice.below(20) == 0 ? 5000 : 40); i > 0; --i) {
+        out += static_cast<char>(dice.below(3) == 0 ? dice.below(256) : 0x20 + dice.below(95));
+    }
+    return out;
+}
+
+/// A code of a list with parameters, or with the name of a file, or none at all.
+std::string request(const std::vector<std::string>& codes, Dice& dice) {
+    if (codes.empty() || dice.below(20) == 0) {
+        return garbage(dice);
+    }
+    const std::string& code = one_of(codes, dice);
+    static constexpr std::array<std::string_view, 5> names{"part.gco", "long.gco", "empty.gco", "none.gco",
+                                                           "../part.gco"};
+    return dice.below(5) == 0 ? fmt::format("{} {}", code, one_of(names, dice)) : with_parameters(code, dice);
+}
+
+}  // namespace
+
+void screen_asks(World& w, Dice& dice) {
+    const std::string body = request(w.cast().requests, dice);
+    const bool framed = w.cast().profile->line.framing == behaviour::Framing::frames;
+    w.say(Channel::main, framed ? protocol::frame(body) : body + "\r\n");
+}
+
+void screen_stammers(World& w, Dice& dice) {
+    std::string text = garbage(dice);
+    if (dice.below(2) == 0) {
+        text += '\n';
+    }
+    w.say(Channel::main, text);
+}
+
+void screen_is_touched(World& w, Dice& dice) {
+    w.touch(dice);
+}
+
+void screen_floods(World& w, Dice& dice) {
+    std::string all;
+    for (std::uint64_t i = dice.below(200); i > 0; --i) {
+        all += protocol::frame("M105");
+    }
+    w.say(Channel::main, all);
+}
+
+void host_commands(World& w, Dice& dice) {
+    w.command(request(w.cast().commands, dice));
+}
+
+/// More than any queue holds, by a host that does not wait.
+void host_floods(World& w, Dice& dice) {
+    w.command("G4 S3");
+    for (std::uint64_t i = dice.below(5000); i > 0; --i) {
+        w.command("M105");
+    }
+}
+
+void host_stammers(World& w, Dice& dice) {
+    static constexpr std::array<std::string_view, 8> odd{
+        "N3 M105*1\n", "N5 M105\n", "M105*7\n", "\n", "M\n", "N\n", "*\n", "N-1 M110*0\n"};
+    w.say(Channel::host, dice.below(2) == 0 ? std::string(one_of(odd, dice)) : garbage(dice) + "\n");
+}
+
+void host_prints(World& w, Dice& dice) {
+    for (std::uint64_t i = dice.below(30); i > 0; --i) {
+        w.command(fmt::format("G1 X{} Y{} E{} F{}", dice.below(100), dice.below(100), dice.below(10),
+                              600 + dice.below(6000)));
+        w.pass(std::chrono::milliseconds(dice.below(50)));
+    }
+}
+
+void host_uploads(World& w, Dice& dice) {
+    if (w.owed() > 0) {
+        return;  // a good host waits
+    }
+    // One that will not come back has a name of its own: what others say then goes into that file.
+    const bool given_up = dice.below(8) == 0;
+    const std::string name = given_up ? "left.gco" : fmt::format("up{}.gco", dice.below(3));
+    const std::uint64_t lines = dice.below(60);
+    std::string content;
+    std::vector<std::string> said;
+    for (std::uint64_t i = 0; i < lines; ++i) {
+        said.push_back(fmt::format("G1 X{} Y{}", dice.below(100), dice.below(100)));
+        content += said.back() + "\r\n";
+    }
+    if (!given_up) {
+        w.will_be(name, content);
+    }
+    w.command("M28 " + name);
+    for (const std::string& line : said) {
+        w.command(line);
+        w.let_most_be_acknowledged();  // what is logged is carried out as well
+    }
+    if (!given_up) {
+        w.command("M29");
+    }
+}
+
+void network_asks(World& w, Dice& dice) {
+    static constexpr std::array<std::string_view, 6> ends{"", "\n", "\r\n", "\0", "\r", "  "};
+    w.datagram(1 + dice.below(3), dice.below(4) == 0
+                                      ? garbage(dice)
+                                      : request(w.cast().requests, dice) + std::string(one_of(ends, dice)));
+}
+
+/// A file in pieces, as the boards' network module takes them. Some come twice or too early; who was told to
+/// say a piece again does so, and who was refused gives up.
+void network_uploads(World& w, Dice& dice) {
+    const auto& requests = w.cast().requests;
+    const bool takes_files = std::find(requests.begin(), requests.end(), "M28") != requests.end();
+    if (!w.cast().probes[static_cast<std::size_t>(Channel::network)] || !takes_files) {
+        return;
+    }
+    const std::string name = fmt::format("net{}.gco", dice.below(3));
+    const std::uint64_t peer = 1 + dice.below(3);
+    std::string content;
+    for (std::uint64_t i = dice.below(2000); i > 0; --i) {
+        content += fmt::format("G1 X{}", dice.below(1000));
+    }
+    const std::size_t most = 1 + dice.below(protocol::max_chunk_payload);
+    const std::uint64_t given_up_at = dice.below(6) == 0 ? dice.below(content.size() + 1) : content.size();
+    w.will_be(name, content);
+    const auto taken = [](const std::string& answer) {
+        return answer.find("ok") != std::string::npos && answer.find("Error") == std::string::npos;
+    };
+    bool goes_on = taken(w.told(peer, "M28 " + name));
+    std::array<char, protocol::max_chunk_bytes> room;
+    int odd = 0;
+    for (std::size_t at = 0; goes_on && at < given_up_at;) {
+        const std::uint64_t course = ++odd < 100 ? dice.below(8) : 7;
+        const std::size_t from = course == 0 ? at - std::min(at, most) : course == 1 ? at + 1 : at;
+        const std::string_view piece = std::string_view(content).substr(std::min(from, content.size()), most);
+        const std::size_t size =
+            protocol::write_chunk(room, static_cast<std::uint32_t>(from), piece.empty() ? "x" : piece);
+        const std::string answer = w.told(peer, {room.data(), size});
+        if (const auto again = protocol::resend_offset(answer)) {
+            goes_on = *again <= content.size();
+            at = *again;
+        } else {
+            goes_on = taken(answer);
+            at = from + piece.size();
+        }
+        w.pass(std::chrono::milliseconds(dice.below(50)));
+    }
+    if (goes_on && given_up_at == content.size() && taken(w.told(peer, "M29"))) {
+        w.is_saved(name, content);
+    }
+}
+
+}  // namespace fauxboard::world

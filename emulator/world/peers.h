@@ -1,0 +1,30 @@
+#pragma once
+
+#include <iterator>
+
+#include "emulator/fault/dice.h"
+
+namespace fauxboard::world {
+
+class World;
+
+template <class List>
+const auto& one_of(const List& list, fault::Dice& dice) {
+    return list[dice.below(std::size(list))];
+}
+
+// What those at the other ends of the lines do, well or badly: rows of the table in steps.cpp.
+// -----------------------------------------------------------------------------------------------
+void screen_asks(World& w, fault::Dice& dice);
+void screen_stammers(World& w, fault::Dice& dice);
+void screen_is_touched(World& w, fault::Dice& dice);
+void screen_floods(World& w, fault::Dice& dice);
+void host_commands(World& w, fault::Dice& dice);
+void host_floods(World& w, fault::Dice& dice);
+void host_stammers(World& w, fault::Dice& dice);
+void host_prints(World& w, fault::Dice& dice);
+void host_uploads(World& w, fault::Dice& dice);
+void network_asks(World& w, fault::Dice& dice);
+void network_uploads(World& w, fault::Dice& dice);
+
+}  // namespace fauxboard::world
