@@ -217,6 +217,24 @@ std::string moves_once(const View& view) {
     return {};
 }
 
+/// But for what was too short to be a move: less than Marlin's six steps.
+std::string motors_follow(const View& view) {
+    constexpr double too_short_steps = 7;
+    const machine::Machine& machine = view.board.machine();
+    if (machine.moving()) {
+        return {};
+    }
+    for (const char axis : {'x', 'y'}) {
+        const auto place = number_of(machine, fmt::format("position.{}", axis));
+        const auto stands = number_of(machine, fmt::format("position.steps.{}", axis));
+        const auto steps_per_mm = number_of(machine, fmt::format("settings.steps.{}", axis));
+        if (place && stands && steps_per_mm && std::abs(*place * *steps_per_mm - *stands) > too_short_steps) {
+            return fmt::format("{} is at {}, and its motor at {}", axis, *place, *stands / *steps_per_mm);
+        }
+    }
+    return {};
+}
+
 std::string one_a_turn(const View& view) {
     const int answers = view.ledger.too_soon;
     return answers == 0 ? "" : fmt::format("{} requests were answered within one turn", answers);
@@ -351,6 +369,8 @@ constexpr std::array table{
     Invariant{Moment::peace, "moves once",
               "A move is executed once, in its order: many short ones lead where their sum leads.",
               moves_once},
+    Invariant{Moment::step, "motors follow", "At rest the motors stand where the moves led them.",
+              motors_follow},
     Invariant{Moment::peace, "one a turn",
               "A board that answers a request a turn does not answer faster, however many come at once.",
               one_a_turn},
