@@ -25,6 +25,12 @@ constexpr int most_rests = 500;
 
 }  // namespace
 
+/// As the main line has it.
+std::string World::framed(std::string_view request) const {
+    return cast_.profile->line.framing == behaviour::Framing::frames ? protocol::frame(request)
+                                                                     : std::string(request) + "\n";
+}
+
 void World::ask(Channel channel) {
     const auto& probe = cast_.probes[static_cast<std::size_t>(channel)];
     if (!probe) {
@@ -36,9 +42,7 @@ void World::ask(Channel channel) {
         case Channel::main:
             say(channel, "\n");  // ends what was left unfinished
             heard_.clear();
-            say(channel, cast_.profile->line.framing == behaviour::Framing::frames
-                             ? protocol::frame(probe->request)
-                             : probe->request + "\n");
+            say(channel, framed(probe->request));
             break;
         case Channel::host:
             say(channel, "\n");
@@ -87,6 +91,28 @@ void World::rest_while(const std::function<bool()>& goes_on) {
             user_continues();
         }
         pass(rest);
+    }
+}
+
+/// Half a line stands in the board when it is reset: nothing of it is left in the first request after that.
+void World::reset_amid_line() {
+    constexpr SimTime boot = std::chrono::seconds(30);
+    const auto& probe = cast_.probes[static_cast<std::size_t>(Channel::main)];
+    const bool may_be_ill = ledger_.harmed || ledger_.misset;
+    if (!may_be_ill) {
+        say(Channel::main, "M10");
+    }
+    reset();
+    if (!probe || may_be_ill || screen_) {
+        return;  // a screen has lines of its own to say, and ends this one
+    }
+    pass(boot);
+    asked_ = Channel::main;
+    heard_.clear();
+    say(Channel::main, framed(probe->request));
+    pass(patience);
+    if (!probe->answered_by(heard_)) {
+        ledger_.unanswered.push_back(probe->request + " was not answered after a reset amid a line");
     }
 }
 

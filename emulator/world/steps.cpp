@@ -188,8 +188,12 @@ void power_is_cut(World& w, Dice& dice) {
     w.power_cut(dice);
 }
 
-void board_is_reset(World& w, Dice&) {
-    w.reset();
+void board_is_reset(World& w, Dice& dice) {
+    if (dice.below(2) == 0) {
+        w.reset();
+    } else {
+        w.reset_amid_line();
+    }
 }
 
 void profile_is_reloaded(World& w, Dice&) {

@@ -302,14 +302,15 @@ void World::say(Channel channel, std::string_view bytes) {
 }
 
 bool World::command(std::string_view body) {
-    const std::string line = fmt::format("N{} {}", ++line_number_, body);
+    const std::int64_t number = ++line_number_;  // a reset meanwhile begins anew
+    const std::string line = fmt::format("N{} {}", number, body);
     first_verdict_.reset();
     say(Channel::host, fmt::format("{}*{}\n", line, checksum(line)));
     // One that was not taken is not counted; what is too long, or has line ends in it, is several, and the
     // number stands in the first. Not that of whichever line spoke last.
     const std::int64_t last = board_->machine().host_side().lines[machine::HostSide::usb_port].last;
     const bool taken = first_verdict_ == board::Verdict::accepted;
-    ledger_.lost_counted += !taken && last == line_number_ ? 1U : 0U;
+    ledger_.lost_counted += !taken && last == number ? 1U : 0U;
     line_number_ = last;
     return taken;
 }

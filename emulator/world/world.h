@@ -64,6 +64,7 @@ class World final : private board::Observer {
     /// One of the words of behaviour::action_words(); what the machine refuses is no harm.
     void act(std::string_view words);
     void reset();
+    void reset_amid_line();
     void power_cut(fault::Dice& dice);
     void reload();
     void touch(fault::Dice& dice);
@@ -108,6 +109,7 @@ class World final : private board::Observer {
     /// Until that is no longer so, or a month and more has passed.
     void rest_while(const std::function<bool()>& goes_on);
     void close_files();
+    std::string framed(std::string_view request) const;
     void hurry();
     void walk(int moves, bool hasty);
     void proof_print();
