@@ -7,6 +7,7 @@
 #include <chrono>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "emulator/world/world.h"
@@ -19,6 +20,13 @@ namespace {
 using board::Channel;
 using fault::Dice;
 
+/// Numbers below those bounds in a text.
+template <class... Bounds>
+std::string in_parts(std::string_view format, Dice& dice, Bounds... bounds) {
+    return std::apply([format](auto... drawn) { return fmt::format(fmt::runtime(format), drawn...); },
+                      draw(dice, bounds...));
+}
+
 std::string number(Dice& dice) {
     switch (dice.below(6)) {
         case 0:
@@ -26,9 +34,9 @@ std::string number(Dice& dice) {
         case 1:
             return std::to_string(dice.below(300));
         case 2:
-            return fmt::format("-{}.{}", dice.below(50), dice.below(100));
+            return in_parts("-{}.{}", dice, 50, 100);
         case 3:
-            return fmt::format("{}.{:03}", dice.below(300), dice.below(1000));
+            return in_parts("{}.{:03}", dice, 300, 1000);
         case 4:
             return std::to_string(dice.next());
         default:
@@ -113,8 +121,8 @@ void host_stammers(World& w, Dice& dice) {
 
 void host_prints(World& w, Dice& dice) {
     for (std::uint64_t i = dice.below(30); i > 0; --i) {
-        w.command(fmt::format("G1 X{} Y{} E{} F{}", dice.below(100), dice.below(100), dice.below(10),
-                              600 + dice.below(6000)));
+        const auto [x, y, e, f] = draw(dice, 100, 100, 10, 6000);
+        w.command(fmt::format("G1 X{} Y{} E{} F{}", x, y, e, 600 + f));
         w.pass(std::chrono::milliseconds(dice.below(50)));
     }
 }
@@ -130,7 +138,7 @@ void host_uploads(World& w, Dice& dice) {
     std::string content;
     std::vector<std::string> said;
     for (std::uint64_t i = 0; i < lines; ++i) {
-        said.push_back(fmt::format("G1 X{} Y{}", dice.below(100), dice.below(100)));
+        said.push_back(in_parts("G1 X{} Y{}", dice, 100, 100));
         content += said.back() + "\r\n";
     }
     if (!given_up) {
@@ -148,9 +156,13 @@ void host_uploads(World& w, Dice& dice) {
 
 void network_asks(World& w, Dice& dice) {
     static constexpr std::array<std::string_view, 6> ends{"", "\n", "\r\n", "\0", "\r", "  "};
-    w.datagram(1 + dice.below(3), dice.below(4) == 0
-                                      ? garbage(dice)
-                                      : request(w.cast().requests, dice) + std::string(one_of(ends, dice)));
+    const std::uint64_t peer = 1 + dice.below(3);
+    if (dice.below(4) == 0) {
+        w.datagram(peer, garbage(dice));
+        return;
+    }
+    const std::string asked = request(w.cast().requests, dice);
+    w.datagram(peer, asked + std::string(one_of(ends, dice)));
 }
 
 /// A file in pieces, as the boards' network module takes them. Some come twice or too early; who was told to

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <iterator>
 
 #include "emulator/fault/dice.h"
@@ -11,6 +13,13 @@ class World;
 template <class List>
 const auto& one_of(const List& list, fault::Dice& dice) {
     return list[dice.below(std::size(list))];
+}
+
+/// A number below each of these bounds, drawn in the order in which they stand, whatever compiler evaluates
+/// arguments in which order: a seed plays the same world everywhere.
+template <class... Bounds>
+std::array<std::uint64_t, sizeof...(Bounds)> draw(fault::Dice& dice, Bounds... bounds) {
+    return {dice.below(static_cast<std::uint64_t>(bounds))...};
 }
 
 // What those at the other ends of the lines do, well or badly: rows of the table in steps.cpp.

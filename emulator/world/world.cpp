@@ -9,6 +9,7 @@
 #include "emulator/behaviour/action_words.h"
 #include "emulator/behaviour/fields.h"
 #include "emulator/machine/host_side.h"
+#include "emulator/world/peers.h"
 #include "emulator/world/steps.h"
 #include "protocol/framing.h"
 #include "protocol/host_line.h"
@@ -372,8 +373,8 @@ void World::act(std::string_view words) {
 void World::touch(fault::Dice& dice) {
     if (screen_ && screen_->ready() && !screen_->page().buttons.empty()) {
         const auto& buttons = screen_->page().buttons;
-        screen_->touch(buttons[dice.below(buttons.size())], dice.below(4),
-                       static_cast<double>(dice.below(300)), now_);
+        const auto [button, choice, value] = draw(dice, buttons.size(), 4, 300);
+        screen_->touch(buttons[button], choice, static_cast<double>(value), now_);
         run_to(now_);
     }
 }

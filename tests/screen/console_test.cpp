@@ -9,6 +9,7 @@
 #include "emulator/screen/scene.h"
 #include "emulator/screen/screen_json.h"
 #include "tests/screen/harness.h"
+#include "tests/screen/keys.h"
 
 namespace fauxboard::testing {
 namespace {
@@ -44,16 +45,6 @@ constexpr std::string_view told_screen = R"({
   },
   "everywhere": { "Deep": { "when": { "own": 0 }, "leads_to": "Far/Same" } }
 })";
-
-Key key(Key::Kind kind, char character = '\0') {
-    Key out;
-    out.kind = kind;
-    out.character = character;
-    return out;
-}
-Key letter(char c) {
-    return key(Key::Kind::character, c);
-}
 
 ButtonView button(std::size_t id, std::size_t row, std::string label) {
     ButtonView out;

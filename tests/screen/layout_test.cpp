@@ -4,6 +4,7 @@
 
 #include "emulator/screen/console.h"
 #include "tests/screen/harness.h"
+#include "tests/screen/keys.h"
 
 using namespace fauxboard;
 using namespace fauxboard::testing;
@@ -27,15 +28,6 @@ PageView view_of(screen::Screen& of) {
     return screen::view_page(of.standpoint());
 }
 
-Key key(Key::Kind kind, char character = '\0') {
-    Key out;
-    out.kind = kind;
-    out.character = character;
-    return out;
-}
-Key letter(char c) {
-    return key(Key::Kind::character, c);
-}
 Key click(int x, int y) {
     Key out = key(Key::Kind::click);
     out.x = x;
