@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <utility>
 
 #include "emulator/behaviour/fields.h"
 #include "emulator/machine/host_side.h"
+#include "emulator/world/peers.h"
 #include "emulator/world/world.h"
 #include "protocol/framing.h"
 
@@ -280,6 +282,13 @@ void World::peace() {
         walk(900, true);
     }
     proof_print();
+    tinker([](machine::Machine& machine) {
+        machine.insert_card(0);
+        machine.storage.choose(0);
+    });
+    if (std::string refused = upload_of_a_newcomer(*this); !refused.empty()) {
+        ledger_.unanswered.push_back(std::move(refused));
+    }
     ledger_.unheard = ledger_.unheard || board_->machine().job.waits_for_user;
     after_step();
     look(Moment::peace);

@@ -165,12 +165,25 @@ void network_asks(World& w, Dice& dice) {
     w.datagram(peer, asked + std::string(one_of(ends, dice)));
 }
 
+bool takes_files(const World& w) {
+    const auto& requests = w.cast().requests;
+    return w.cast().probes[static_cast<std::size_t>(Channel::network)] &&
+           std::find(requests.begin(), requests.end(), "M28") != requests.end();
+}
+
+bool taken(const std::string& answer) {
+    return answer.find("ok") != std::string::npos && answer.find("Error") == std::string::npos;
+}
+
+std::string_view write_piece(std::array<char, protocol::max_chunk_bytes>& room, std::size_t from,
+                             std::string_view piece) {
+    return {room.data(), protocol::write_chunk(room, static_cast<std::uint32_t>(from), piece)};
+}
+
 /// A file in pieces, as the boards' network module takes them. Some come twice or too early; who was told to
 /// say a piece again does so, and who was refused gives up.
 void network_uploads(World& w, Dice& dice) {
-    const auto& requests = w.cast().requests;
-    const bool takes_files = std::find(requests.begin(), requests.end(), "M28") != requests.end();
-    if (!w.cast().probes[static_cast<std::size_t>(Channel::network)] || !takes_files) {
+    if (!takes_files(w)) {
         return;
     }
     const std::string name = fmt::format("net{}.gco", dice.below(3));
@@ -182,9 +195,6 @@ void network_uploads(World& w, Dice& dice) {
     const std::size_t most = 1 + dice.below(protocol::max_chunk_payload);
     const std::uint64_t given_up_at = dice.below(6) == 0 ? dice.below(content.size() + 1) : content.size();
     w.will_be(name, content);
-    const auto taken = [](const std::string& answer) {
-        return answer.find("ok") != std::string::npos && answer.find("Error") == std::string::npos;
-    };
     bool goes_on = taken(w.told(peer, "M28 " + name));
     std::array<char, protocol::max_chunk_bytes> room;
     int odd = 0;
@@ -192,9 +202,7 @@ void network_uploads(World& w, Dice& dice) {
         const std::uint64_t course = ++odd < 100 ? dice.below(8) : 7;
         const std::size_t from = course == 0 ? at - std::min(at, most) : course == 1 ? at + 1 : at;
         const std::string_view piece = std::string_view(content).substr(std::min(from, content.size()), most);
-        const std::size_t size =
-            protocol::write_chunk(room, static_cast<std::uint32_t>(from), piece.empty() ? "x" : piece);
-        const std::string answer = w.told(peer, {room.data(), size});
+        const std::string answer = w.told(peer, write_piece(room, from, piece.empty() ? "x" : piece));
         if (const auto again = protocol::resend_offset(answer)) {
             goes_on = *again <= content.size();
             at = *again;
@@ -207,6 +215,25 @@ void network_uploads(World& w, Dice& dice) {
     if (goes_on && given_up_at == content.size() && taken(w.told(peer, "M29"))) {
         w.is_saved(name, content);
     }
+}
+
+std::string upload_of_a_newcomer(World& w) {
+    constexpr std::uint64_t newcomer = 98;
+    const std::string name = "newcomer.gco";
+    const std::string content = "G1 X1\nG1 X2\n";
+    if (!takes_files(w)) {
+        return {};
+    }
+    w.will_be(name, content);
+    std::array<char, protocol::max_chunk_bytes> room;
+    for (const std::string& bytes :
+         {"M28 " + name, std::string(write_piece(room, 0, content)), std::string("M29")}) {
+        if (const std::string answer = w.told(newcomer, bytes); !taken(answer)) {
+            return fmt::format("an upload was answered by \"{}\"", answer.substr(0, answer.find('\n')));
+        }
+    }
+    w.is_saved(name, content);
+    return {};
 }
 
 }  // namespace fauxboard::world

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <iterator>
+#include <string>
 
 #include "emulator/fault/dice.h"
 
@@ -35,5 +36,9 @@ void host_prints(World& w, fault::Dice& dice);
 void host_uploads(World& w, fault::Dice& dice);
 void network_asks(World& w, fault::Dice& dice);
 void network_uploads(World& w, fault::Dice& dice);
+
+/// A file by somebody who was not there before, whoever left one unfinished. Why it was refused; empty: it
+/// was not, or such a board takes none.
+std::string upload_of_a_newcomer(World& w);
 
 }  // namespace fauxboard::world
