@@ -165,10 +165,12 @@ void network_asks(World& w, Dice& dice) {
     w.datagram(peer, asked + std::string(one_of(ends, dice)));
 }
 
+/// Others that know M28 take a file as a host writes it, a line at a time.
 bool takes_files(const World& w) {
-    const auto& requests = w.cast().requests;
-    return w.cast().probes[static_cast<std::size_t>(Channel::network)] &&
-           std::find(requests.begin(), requests.end(), "M28") != requests.end();
+    const auto knows = [&requests = w.cast().requests](std::string_view code) {
+        return std::find(requests.begin(), requests.end(), code) != requests.end();
+    };
+    return w.cast().probes[static_cast<std::size_t>(Channel::network)] && knows("M28") && knows("M3000");
 }
 
 bool taken(const std::string& answer) {
